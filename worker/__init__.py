@@ -1,0 +1,1 @@
+"""What makes pictures: jobs at the door, synthesis and rendering behind it."""
