@@ -49,5 +49,5 @@ class PhongSpec(SurfaceSpec):
     normalization: Literal["none", "energy"] = Field(
         default="none",
         description="none is the formula as written; energy divides the matt part by pi and "
-        "weights the highlight by (n + 2) / (2 pi) and n.l, so that a tighter highlight is brighter.",
+        "weights the highlight by (n + 2) / (2 pi) and n.l: a tighter highlight is brighter.",
     )
