@@ -30,7 +30,7 @@ def found(request):
 
 
 def matrix(*columns, last=1):
-    rows = [list(column) + [0] for column in columns]
+    rows = [[*list(column), 0] for column in columns]
     rows[3][3] = last
     return {"matrix": [number for row in rows for number in row]}
 
