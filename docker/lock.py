@@ -1,4 +1,4 @@
-"""Makes requirements.lock and requirements-dev.lock from pyproject.toml, or checks that they fit it.
+"""Makes both lock files from pyproject.toml, or checks that they fit it.
 
 `make lock` resolves anew and needs a package index; `make check` compares offline: the first line
 of each lock carries a hash of the dependency tables it was made from.
@@ -12,6 +12,7 @@ import subprocess
 import sys
 import tomllib
 from pathlib import Path
+from typing import Any
 
 ROOT = Path(__file__).resolve().parent.parent
 RUN_LOCK, DEV_LOCK = "requirements.lock", "requirements-dev.lock"
@@ -30,7 +31,7 @@ def main(verb: str) -> None:
         sys.exit("Run `make lock` and commit both lock files.")
 
 
-def first_line(project: dict) -> str:
+def first_line(project: dict[str, Any]) -> str:
     """The comment that binds a lock to the dependency tables of pyproject.toml."""
     tables = {
         "build": project["build-system"]["requires"],
@@ -42,9 +43,9 @@ def first_line(project: dict) -> str:
     return f"# Made by `make lock` from the dependencies in pyproject.toml, sha256 {digest}\n"
 
 
-def make_locks(project: dict) -> None:
+def make_locks(project: dict[str, Any]) -> None:
     """Resolve both locks; the development lock takes over every version of the other."""
-    # The build backend is locked too: `pip install --no-build-isolation -e .` must not need a network.
+    # The build backend is locked too: adding the project to .venv must not need a network.
     build_requirements = "\n".join(project["build-system"]["requires"])
     for lock, extra in ((RUN_LOCK, []), (DEV_LOCK, ["--extra", "dev", "-c", RUN_LOCK])):
         print(f"locks: resolving {lock}", flush=True)
@@ -67,7 +68,7 @@ def make_locks(project: dict) -> None:
 
 
 def index_environment() -> dict[str, str]:
-    """The environment for uv; where uv has no index of its own it takes the one pip is told to use."""
+    """The environment for uv; without an index of its own it takes the one pip is told to use."""
     environment = dict(os.environ)
     asked = subprocess.run(
         [sys.executable, "-m", "pip", "config", "get", "global.index-url"],
@@ -80,7 +81,7 @@ def index_environment() -> dict[str, str]:
     return environment
 
 
-def find_mistakes(project: dict) -> list[str]:
+def find_mistakes(project: dict[str, Any]) -> list[str]:
     """Everything wrong with the committed locks, one sentence each."""
     locks = {name: (ROOT / name).read_text() for name in (RUN_LOCK, DEV_LOCK)}
     mistakes = []
