@@ -1,0 +1,71 @@
+"""Walks over a request: its parts with their JSON pointers and the meaning of their slots."""
+
+from collections.abc import Callable, Iterator
+from typing import TypeVar
+
+from api_schemas.base import Schema
+from api_schemas.families import Meaning
+from api_schemas.maps import Slot
+
+Model = TypeVar("Model", bound=Schema)
+
+
+def parts(value: object, pointer: str = "") -> Iterator[tuple[str, Schema]]:
+    """Yield a schema and all schemas within it, parents first, each with its JSON pointer."""
+    if isinstance(value, Schema):
+        yield pointer, value
+        for name in type(value).model_fields:
+            yield from parts(getattr(value, name), f"{pointer}/{name}")
+    elif isinstance(value, list):
+        for index, item in enumerate(value):
+            yield from parts(item, f"{pointer}/{index}")
+
+
+def deepest(value: object, kinds: tuple[type[Schema], ...], pointer: str = "") -> tuple[int, str]:
+    """Return how many schemas of the kinds lie within each other at most, and where."""
+    if isinstance(value, Schema):
+        inner = [
+            deepest(getattr(value, name), kinds, f"{pointer}/{name}")
+            for name in type(value).model_fields
+        ]
+        levels, place = max(inner, default=(0, pointer))
+        place = place if levels else pointer
+        return (levels + isinstance(value, kinds), place)
+    if isinstance(value, list):
+        return max(
+            (deepest(item, kinds, f"{pointer}/{i}") for i, item in enumerate(value)),
+            default=(0, pointer),
+        )
+    return (0, pointer)
+
+
+def rewrite(
+    model: Model, change: Callable[[Schema, Meaning], Schema], meaning: Meaning = "colour"
+) -> Model:
+    """Return a copy in which `change` has been applied to every schema, children first.
+
+    `change` is told the meaning of the nearest slot above: colour or data.
+    """
+    updates = {}
+    for name, field in type(model).model_fields.items():
+        slot = next((item for item in field.metadata if isinstance(item, Slot)), None)
+        before = getattr(model, name)
+        after = _rewrite_value(before, change, slot.meaning if slot else meaning)
+        if after is not before:
+            updates[name] = after
+    copy = model.model_copy(update=updates) if updates else model
+    changed = change(copy, meaning)
+    if not isinstance(changed, type(model)):
+        raise TypeError(f"{type(changed).__name__} cannot stand where {type(model).__name__} was")
+    return changed
+
+
+def _rewrite_value(
+    value: object, change: Callable[[Schema, Meaning], Schema], meaning: Meaning
+) -> object:
+    if isinstance(value, Schema):
+        return rewrite(value, change, meaning)
+    if isinstance(value, list):
+        after = [_rewrite_value(item, change, meaning) for item in value]
+        return value if all(a is b for a, b in zip(after, value, strict=True)) else after
+    return value
