@@ -110,7 +110,8 @@ def read(path: Path, encoding: Transfer, meaning: Meaning) -> Image:
         decoded = _decode(file, header)
     pixels = linearise(decoded, encoding, header.alpha, meaning)
     if header.rec709 is not None and meaning == "colour":
-        pixels[..., :3] = pixels[..., :3] @ header.rec709.astype(np.float32).T
+        with np.errstate(over="ignore", invalid="ignore"):
+            pixels[..., :3] = pixels[..., :3] @ header.rec709.astype(np.float32).T
     return Image(turn(place(pixels, header.data, header.display), header.orientation), meaning)
 
 

@@ -12,6 +12,8 @@ from worker.images.image import Meaning
 Alpha = Literal["none", "straight", "associated"]
 
 
+# Pictures may hold infinity and NaN.
+@np.errstate(over="ignore", invalid="ignore")
 def linearise(
     decoded: NDArray[Any], transfer: Transfer, alpha: Alpha, meaning: Meaning
 ) -> NDArray[np.float32]:
