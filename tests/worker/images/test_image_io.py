@@ -2,6 +2,7 @@ import time
 from pathlib import Path
 
 import numpy as np
+import OpenImageIO
 import PIL.Image
 import pytest
 
@@ -254,14 +255,21 @@ def test_an_exr_without_a_picture_is_refused_by_name(
 
 
 def test_a_deep_exr_is_refused_by_name(tmp_path: Path) -> None:
+    spec = OpenImageIO.ImageSpec(2, 2, 4, "half")
+    spec.deep = True
     path = tmp_path / "deep"
-    header = exr_header(version_flags=0x800, part_name="d").replace(
-        b"scanlineimage", b"deepscanline\0"
-    )
-    path.write_bytes(header + bytes(200))
+    file = OpenImageIO.ImageOutput.create("openexr")
+    assert file is not None
+    assert file.open(str(path), spec)
+    samples = OpenImageIO.DeepData()
+    samples.init(4, 4, tuple(OpenImageIO.TypeDesc("half") for _ in range(4)), spec.channelnames)
+    assert file.write_deep_image(samples)
+    file.close()
 
-    with pytest.raises(UnusableAssetError):
+    with pytest.raises(UnusableAssetError, match="deep pictures") as refusal:
         measure(path)
+
+    assert refusal.value.code == "asset_unsupported"
 
 
 @pytest.mark.corpus
