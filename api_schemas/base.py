@@ -1,0 +1,41 @@
+"""What every contract shares: immutable, closed to unknown fields, numbers that float32 can hold."""
+
+from typing import Annotated, Any
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
+
+FLOAT32_MAX = 3.4028234663852886e38
+LENGTH_MAX = 1e6
+LENGTH_MIN = 1e-6
+
+
+class Schema(BaseModel):
+    """A frozen value that refuses unknown fields, NaN, infinities and numbers dressed as text."""
+
+    model_config = ConfigDict(
+        frozen=True,
+        extra="forbid",
+        strict=True,
+        allow_inf_nan=False,
+    )
+
+
+def _whole(value: Any) -> Any:
+    """JSON has one kind of number: 512.0 is the integer 512."""
+    return int(value) if isinstance(value, float) and value.is_integer() else value
+
+
+Number = Annotated[float, Field(ge=-FLOAT32_MAX, le=FLOAT32_MAX)]
+NonNegative = Annotated[float, Field(ge=0, le=FLOAT32_MAX)]
+Length = Annotated[float, Field(ge=LENGTH_MIN, le=LENGTH_MAX)]
+Coordinate = Annotated[float, Field(ge=-LENGTH_MAX, le=LENGTH_MAX)]
+Angle = Annotated[float, Field(ge=-1000, le=1000)]
+WHOLE = BeforeValidator(_whole)
+"""Goes last in the annotation of an integer field, after its bounds."""
+Seed = Annotated[int, Field(ge=0, le=2**32 - 1), WHOLE]
+
+Pair = Annotated[list[Coordinate], Field(min_length=2, max_length=2)]
+Vector = Annotated[list[Coordinate], Field(min_length=3, max_length=3)]
+Color = Annotated[list[NonNegative], Field(min_length=3, max_length=3)]
+Matrix4 = Annotated[list[Coordinate], Field(min_length=16, max_length=16)]
+Sha256 = Annotated[str, Field(pattern="^[0-9a-f]{64}$", min_length=64, max_length=64)]

@@ -1,0 +1,45 @@
+"""The families of techniques: what each member says of itself besides its parameters.
+
+A technique's name is written once: its module's name, its `technique` literal, its word in the URL.
+"""
+
+from typing import ClassVar, Literal
+
+from api_schemas.base import Schema
+from api_schemas.cost import Cost
+
+Meaning = Literal["colour", "data"]
+
+
+class TechniqueSpec(Schema):
+    """One technique with its parameters; the class carries what documentation and digests need."""
+
+    revision: ClassVar[int] = 1
+    """Raised whenever the same parameters give other pixels."""
+    source: ClassVar[str] = ""
+    """Author and year of the idea."""
+    equation: ClassVar[str] = ""
+    """The formula in plain text, where there is one."""
+
+    technique: str
+
+
+class TextureSpec(TechniqueSpec):
+    """Makes a picture from parameters, nested textures and uploaded pictures."""
+
+    meaning: ClassVar[Meaning] = "colour"
+    """Whether the result is light (sRGB in a PNG) or numbers (quantised as they are)."""
+    sized: ClassVar[bool] = False
+    """Whether the technique has a size of its own in pixels; otherwise it is a function on the unit tile."""
+
+    def cost(self, pixels: int) -> Cost:
+        """Estimate this technique alone, without the textures nested in it, at a number of pixels."""
+        return Cost(seconds=pixels * 2e-8, bytes=pixels * 32)
+
+
+class CoordinatesSpec(TechniqueSpec):
+    """Says which vector of the surface point a map is looked up with."""
+
+
+class SurfaceSpec(TechniqueSpec):
+    """Says how a surface sends light to the eye."""

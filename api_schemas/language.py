@@ -1,0 +1,106 @@
+"""The only place where the families meet.
+
+Each folder of specs becomes a union named here; a texture may hold textures, so the specs speak of
+these names before the folders are read, and are completed at the end of this module.
+"""
+
+import importlib
+import pkgutil
+from functools import reduce
+from operator import or_
+from types import ModuleType
+from typing import TYPE_CHECKING, Annotated, Any, TypeAlias, get_args
+
+from pydantic import Discriminator, Field, Tag
+from typing_extensions import TypeAliasType
+
+from api_schemas import coordinates, surfaces, textures
+from api_schemas.base import Color, NonNegative, Number
+from api_schemas.families import CoordinatesSpec, SurfaceSpec, TechniqueSpec, TextureSpec
+from api_schemas.maps import ColorMap, Map, NumberMap
+
+
+def specs_in(folder: ModuleType, family: type[TechniqueSpec]) -> dict[str, type[TechniqueSpec]]:
+    """Return a folder's specs by technique, in alphabetical order.
+
+    Raises:
+        TypeError: A module does not define exactly one spec whose technique is the module's name.
+    """
+    found = {}
+    for name in sorted(info.name for info in pkgutil.iter_modules(folder.__path__)):
+        module = importlib.import_module(f"{folder.__name__}.{name}")
+        specs = [
+            value
+            for value in vars(module).values()
+            if isinstance(value, type)
+            and issubclass(value, family)
+            and value.__module__ == module.__name__
+        ]
+        if len(specs) != 1 or get_args(specs[0].model_fields["technique"].annotation) != (name,):
+            raise TypeError(
+                f"{module.__name__} must define one {family.__name__} "
+                f"with technique: Literal[{name!r}]"
+            )
+        found[name] = specs[0]
+    return found
+
+
+FAMILIES: dict[str, dict[str, type[TechniqueSpec]]] = {
+    "textures": specs_in(textures, TextureSpec),
+    "coordinates": specs_in(coordinates, CoordinatesSpec),
+    "surfaces": specs_in(surfaces, SurfaceSpec),
+}
+"""Every technique there is, by family and name."""
+
+
+def _json_type(value: object) -> str:
+    """Choose by JSON type, so that one mistake gives one problem at one place."""
+    return "map" if isinstance(value, dict | Map) else "value"
+
+
+def _mappable(value: Any, mapped: type[Map]) -> Any:
+    return Annotated[
+        Annotated[value, Tag("value")] | Annotated[mapped, Tag("map")], Discriminator(_json_type)
+    ]
+
+
+if TYPE_CHECKING:
+    Texture: TypeAlias = TextureSpec
+    Coordinates: TypeAlias = CoordinatesSpec
+    Surface: TypeAlias = SurfaceSpec
+    MappableNumber: TypeAlias = float | NumberMap
+    MappableNonNegative: TypeAlias = float | NumberMap
+    MappableColor: TypeAlias = list[float] | ColorMap
+else:
+
+    def _one_of(name, family):
+        union = reduce(or_, FAMILIES[family].values())
+        return TypeAliasType(name, Annotated[union, Field(discriminator="technique")])
+
+    Texture = _one_of("Texture", "textures")
+    Coordinates = _one_of("Coordinates", "coordinates")
+    Surface = _one_of("Surface", "surfaces")
+    MappableNumber = TypeAliasType("MappableNumber", _mappable(Number, NumberMap))
+    MappableNonNegative = TypeAliasType("MappableNonNegative", _mappable(NonNegative, NumberMap))
+    MappableColor = TypeAliasType("MappableColor", _mappable(Color, ColorMap))
+
+
+def _complete() -> None:
+    names = {
+        name: globals()[name]
+        for name in (
+            "Texture",
+            "Coordinates",
+            "Surface",
+            "MappableNumber",
+            "MappableNonNegative",
+            "MappableColor",
+        )
+    }
+    members = [spec for family in FAMILIES.values() for spec in family.values()]
+    for model in (Map, ColorMap, NumberMap, *members):
+        module = importlib.import_module(model.__module__)
+        model.model_rebuild(force=True, _types_namespace={**vars(module), **names})
+
+
+_complete()

@@ -1,0 +1,82 @@
+"""A map: a texture put in the place of a surface parameter, and how it is looked up."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from pydantic import Field
+
+from api_schemas.base import Angle, Number, Pair, Schema
+
+if TYPE_CHECKING:
+    from api_schemas.families import Meaning
+    from api_schemas.language import Coordinates, Texture
+
+Wrap = Literal["repeat", "mirror", "clamp", "border"]
+Filter = Literal["nearest", "bilinear", "trilinear", "anisotropic"]
+
+
+@dataclass(frozen=True, slots=True)
+class Slot:
+    """Marks a field that takes a texture: whether it is read as colour or as plain data."""
+
+    meaning: Meaning
+
+
+COLOUR = Slot("colour")
+DATA = Slot("data")
+
+
+class TextureTransform(Schema):
+    """Moves the picture on the surface: coordinates are scaled, then turned, then shifted."""
+
+    offset: Pair = Field(default=[0.0, 0.0], description="Shift of the coordinates in tiles, u then v.")
+    rotation: Angle = Field(
+        default=0.0, description="Counter-clockwise turn of the coordinates in radians."
+    )
+    scale: Pair = Field(
+        default=[1.0, 1.0], description="How many tiles fit where one did, along u and v."
+    )
+
+
+class Map(Schema):
+    """What colour maps and number maps share."""
+
+    coordinates: Coordinates = Field(
+        default={"technique": "uv"}, validate_default=True, description="Where on the texture to look."
+    )
+    transform: TextureTransform = Field(
+        default=TextureTransform(), description="Moves, turns and repeats the picture."
+    )
+    wrap: Annotated[list[Wrap], Field(min_length=2, max_length=2)] = Field(
+        default=["repeat", "repeat"],
+        description="What lies beyond the tile along u and v: copies, mirrored copies, the edge "
+        "drawn out, or border_color.",
+    )
+    border_color: Annotated[list[Number], Field(min_length=4, max_length=4)] = Field(
+        default=[0.0, 0.0, 0.0, 0.0],
+        description="Linear value beyond the tile where wrap is border: red, green, blue, alpha.",
+    )
+    filter: Filter = Field(
+        default="anisotropic",
+        description="How texels become a pixel: hard texels, smooth when near, smooth when far, "
+        "or sharp at grazing angles too.",
+    )
+    scale: Number = Field(default=1.0, description="Multiplies what is read.")
+    bias: Number = Field(default=0.0, description="Is added after the scale.")
+
+
+class ColorMap(Map):
+    """A texture in the place of a colour; one channel becomes a grey."""
+
+    texture: Annotated[Texture, COLOUR] = Field(description="The picture, of any technique.")
+
+
+class NumberMap(Map):
+    """A texture in the place of a number: one channel of it, never gamma-decoded."""
+
+    texture: Annotated[Texture, DATA] = Field(description="The picture, of any technique.")
+    channel: Literal["r", "g", "b", "a"] = Field(
+        default="r", description="Which channel of the texture is read."
+    )

@@ -1,0 +1,42 @@
+"""A scene: a camera, lights, and a tree of nodes that carry meshes."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field
+
+from api_schemas.base import Schema
+from api_schemas.camera import Camera
+from api_schemas.language import Surface
+from api_schemas.lights import Light
+from api_schemas.meshes import Mesh
+from api_schemas.transforms import Placement, Transform
+
+
+class Node(Schema):
+    """A place in the scene; what hangs below it moves with it."""
+
+    name: Annotated[str, Field(max_length=64)] | None = Field(
+        default=None, description="A word for people and for reports."
+    )
+    transform: Transform = Field(
+        default=Placement(), description="Where the node stands in its parent's frame."
+    )
+    mesh: Mesh | None = Field(default=None, description="The shape drawn here.")
+    surface: Surface | None = Field(
+        default=None, description="How the shape reflects light; matt grey Phong without one."
+    )
+    children: Annotated[list[Node], Field(max_length=256)] = Field(
+        default=[], description="Nodes that move with this one."
+    )
+
+
+class Scene(Schema):
+    """Everything a picture is made of."""
+
+    camera: Camera = Field(description="The eye.")
+    lights: Annotated[list[Light], Field(max_length=32)] = Field(
+        default=[], description="What shines; without any, only emission and unlit surfaces show."
+    )
+    nodes: Annotated[list[Node], Field(max_length=256)] = Field(description="What is there.")

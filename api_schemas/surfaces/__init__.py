@@ -1,0 +1,1 @@
+"""How surfaces reflect and emit light; adding a module adds the technique."""

@@ -1,0 +1,53 @@
+"""The Phong model with every term mappable."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, ClassVar, Literal
+
+from pydantic import Field
+
+from api_schemas.families import SurfaceSpec
+
+if TYPE_CHECKING:
+    from api_schemas.language import MappableColor, MappableNonNegative
+
+
+class PhongSpec(SurfaceSpec):
+    """Ambient, diffuse and specular light, each with a weight and a colour of its own."""
+
+    source: ClassVar[str] = "Phong, 1975; Lafortune and Willems, 1994 (energy normalisation)"
+    equation: ClassVar[str] = (
+        "L_out = emission + ka Ca La + sum_l [kd Cd max(0, n.l) + ks Cs max(0, r.v)^n] L_l, "
+        "r = 2 (n.l) n - l"
+    )
+
+    technique: Literal["phong"]
+    ambient_weight: MappableNonNegative = Field(
+        default=1.0, description="How much of the ambient light comes back (ka)."
+    )
+    ambient_color: MappableColor = Field(
+        default=[1.0, 1.0, 1.0], description="Linear colour in ambient light (Ca)."
+    )
+    diffuse_weight: MappableNonNegative = Field(
+        default=1.0, description="How bright the matt part is (kd)."
+    )
+    diffuse_color: MappableColor = Field(
+        default=[0.8, 0.8, 0.8], description="Linear colour of the matt part (Cd)."
+    )
+    specular_weight: MappableNonNegative = Field(
+        default=0.0, description="How bright the highlight is (ks)."
+    )
+    specular_color: MappableColor = Field(
+        default=[1.0, 1.0, 1.0], description="Linear colour of the highlight (Cs)."
+    )
+    exponent: MappableNonNegative = Field(
+        default=32.0, description="How tight the highlight is (n): larger is smaller and shinier."
+    )
+    emission: MappableColor = Field(
+        default=[0.0, 0.0, 0.0], description="Linear radiance the surface adds by itself."
+    )
+    normalization: Literal["none", "energy"] = Field(
+        default="none",
+        description="none is the formula as written; energy divides the matt part by pi and weights "
+        "the highlight by (n + 2) / (2 pi) and n.l, so that a tighter highlight is brighter.",
+    )

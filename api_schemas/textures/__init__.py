@@ -1,0 +1,1 @@
+"""Texture techniques; adding a module adds the technique."""
