@@ -50,7 +50,6 @@ FADES = {
 }
 
 
-
 @kernel
 def noise3(x: float, y: float, z: float, table: NDArray[np.int32]) -> float:
     """Evaluate improved noise (Perlin 2002) in Perlin's own order of operations; period 256.
@@ -93,7 +92,9 @@ def noise2(
     plane = 0.0
     for dj in range(2):
         left = _corner2(x, y - dj, i % period, (j + dj) % period, layer, table, gradients)
-        right = _corner2(x - 1.0, y - dj, (i + 1) % period, (j + dj) % period, layer, table, gradients)
+        right = _corner2(
+            x - 1.0, y - dj, (i + 1) % period, (j + dj) % period, layer, table, gradients
+        )
         row = left + u * (right - left)
         plane = row if dj == 0 else plane + v * (row - plane)
     return plane
@@ -102,7 +103,8 @@ def noise2(
 @kernel
 def hashed(i: int, j: int, k: int, table: NDArray[np.int32]) -> int:
     """Return the permuted number 0..255 of a lattice point; every index counts modulo 256."""
-    return table[(table[(table[i & 255] + j) & 255] + k) & 255]
+    number: int = table[(table[(table[i & 255] + j) & 255] + k) & 255]
+    return number
 
 
 @kernel
@@ -110,7 +112,8 @@ def _corner3(
     x: float, y: float, z: float, i: int, j: int, k: int, table: NDArray[np.int32]
 ) -> float:
     gradient = GRADIENTS_3D[hashed(i, j, k, table) & 15]
-    return gradient[0] * x + gradient[1] * y + gradient[2] * z
+    value: float = gradient[0] * x + gradient[1] * y + gradient[2] * z
+    return value
 
 
 @kernel
@@ -124,7 +127,8 @@ def _corner2(
     gradients: NDArray[np.float64],
 ) -> float:
     gradient = gradients[hashed(i, j, layer, table) & (len(gradients) - 1)]
-    return gradient[0] * x + gradient[1] * y
+    value: float = gradient[0] * x + gradient[1] * y
+    return value
 
 
 @kernel
@@ -134,4 +138,28 @@ def _quintic(s: float) -> float:
 
 @kernel
 def _blend(s: float, fade: NDArray[np.float64]) -> float:
-    return s * (fade[0] + s * (fade[1] + s * (fade[2] + s * (fade[3] + s * fade[4]))))
+    blend: float = s * (fade[0] + s * (fade[1] + s * (fade[2] + s * (fade[3] + s * fade[4]))))
+    return blend
+
+
+@kernel
+def fill_fractal_noise_at(
+    values: NDArray[np.float64],
+    u: NDArray[np.float64],
+    v: NDArray[np.float64],
+    octaves: NDArray[np.float64],
+    table: NDArray[np.int32],
+    gradients: NDArray[np.float64],
+    fade: NDArray[np.float64],
+) -> None:
+    """Write the weighted sum of octaves at points of the tile.
+
+    A row of `octaves` is (cells, weight, layer, shift along u, shift along v), shifts in cells.
+    """
+    for point in range(len(values)):
+        values[point] = 0.0
+        for n in range(len(octaves)):
+            cells, weight, layer, shift_u, shift_v = octaves[n]
+            x, y = u[point] * cells + shift_u, v[point] * cells + shift_v
+            noise = noise2(x, y, int(layer), int(cells), table, gradients, fade)
+            values[point] += weight * noise
