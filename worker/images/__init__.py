@@ -1,0 +1,1 @@
+"""Pictures: the one pixel type, its colour, its pyramids, and files at the border."""
