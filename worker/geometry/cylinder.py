@@ -6,9 +6,7 @@ from worker.geometry.disk import disk
 from worker.geometry.mesh import Mesh, circle, grid_triangles, join
 
 
-def cylinder(
-    radius: float, height: float, segments: int, rows: int, *, caps: bool = False
-) -> Mesh:
+def cylinder(radius: float, height: float, segments: int, rows: int, *, caps: bool = False) -> Mesh:
     """Roll a texture round a can: u counter-clockwise seen from above, v upwards.
 
     P(i, j) = (r cos a, h j / rows, -r sin a) with a = 2 pi i / segments, (u, v) = (i / segments,

@@ -16,9 +16,7 @@ def build(spec: meshes.Mesh) -> Mesh:
     """Make the mesh that a request describes."""
     match spec:
         case meshes.Cylinder():
-            return cylinder(
-                spec.radius, spec.height, spec.segments, spec.rows, caps=spec.caps
-            )
+            return cylinder(spec.radius, spec.height, spec.segments, spec.rows, caps=spec.caps)
         case meshes.Sphere():
             return sphere(spec.radius, spec.segments, spec.rings, flip_u=spec.flip_u)
         case meshes.Plane():

@@ -20,9 +20,7 @@ def sphere(radius: float, segments: int, rings: int, *, flip_u: bool = True) -> 
     pole = (row == 0) | (row == rings)
     latitude = np.pi * (row / rings - 0.5)
     across = np.where(pole, 0.0, np.cos(latitude))
-    normals = np.stack(
-        [cosine[column] * across, np.sin(latitude), -sine[column] * across], axis=1
-    )
+    normals = np.stack([cosine[column] * across, np.sin(latitude), -sine[column] * across], axis=1)
     u = (column + np.where(pole, 0.5, 0.0)) / segments
     triangles = _without_slivers(grid_triangles(segments, rings), segments, rings)
     kept = ~(pole & (column == segments))

@@ -24,9 +24,7 @@ def torus(radius: float, tube_radius: float, segments: int, rings: int) -> Mesh:
         ],
         axis=1,
     )
-    middle = np.stack(
-        [around_cos[column], np.zeros(column.size), -around_sin[column]], axis=1
-    )
+    middle = np.stack([around_cos[column], np.zeros(column.size), -around_sin[column]], axis=1)
     return Mesh(
         positions=radius * middle + tube_radius * normals,
         normals=normals,

@@ -76,9 +76,7 @@ def _orthonormal(matrix: Matrix) -> Matrix:
     upward = _unit(matrix[:3, 1], "the camera's matrix is singular")
     right = _unit(np.cross(upward, backward), "the camera's matrix is singular")
     result = np.eye(4)
-    result[:3, :4] = np.stack(
-        [right, np.cross(backward, right), backward, matrix[:3, 3]], axis=1
-    )
+    result[:3, :4] = np.stack([right, np.cross(backward, right), backward, matrix[:3, 3]], axis=1)
     return result
 
 
@@ -133,9 +131,7 @@ def normal_matrix(world_from_object: Matrix) -> Matrix:
     It equals the inverse transpose up to a positive factor and exists for flat scales too.
     """
     m = world_from_object[:3, :3]
-    cofactors = np.stack(
-        [np.cross(m[1], m[2]), np.cross(m[2], m[0]), np.cross(m[0], m[1])]
-    )
+    cofactors = np.stack([np.cross(m[1], m[2]), np.cross(m[2], m[0]), np.cross(m[0], m[1])])
     largest = np.abs(cofactors).max()
     flip = -1.0 if np.linalg.det(m) < 0 else 1.0
     return cofactors * (flip / largest) if largest > 0 else np.eye(3)
