@@ -45,7 +45,7 @@ def join(meshes: list[Mesh]) -> Mesh:
 
 
 def grid_triangles(columns: int, rows: int) -> NDArray[np.uint32]:
-    """Split a grid of cells into two triangles each, counter-clockwise where column x row is outward.
+    """Split each cell of a grid into two triangles, counter-clockwise if column x row is outward.
 
     Vertex (column i, row j) has index j (columns + 1) + i, for i in 0..columns and j in 0..rows.
 
@@ -60,6 +60,6 @@ def grid_triangles(columns: int, rows: int) -> NDArray[np.uint32]:
 
 
 def circle(segments: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Give cosine and sine of 0..segments equal steps round; the last point is the first, exactly."""
+    """Give cosine and sine of 0..segments equal steps round; the last equals the first, exactly."""
     angle = 2 * np.pi * (np.arange(segments + 1) % segments) / segments
     return np.cos(angle), np.sin(angle)

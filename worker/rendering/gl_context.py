@@ -8,7 +8,7 @@ import atexit
 import os
 import threading
 from dataclasses import dataclass
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
@@ -24,11 +24,13 @@ if os.environ["PYOPENGL_PLATFORM"] == "egl":
 
 OpenGL.ERROR_CHECKING = False  # a glGetError after every call costs a third; `check` asks per tile
 
-import pyrender.platforms.base  # noqa: E402
 from OpenGL import GL  # noqa: E402
 from OpenGL.GL.ARB.clip_control import glClipControl  # noqa: E402  OSMesa exports no 4.5 symbols
 
 from worker.errors import RenderError  # noqa: E402
+
+if TYPE_CHECKING:
+    from pyrender.platforms.base import Platform
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +43,7 @@ class GLContext:
             uninitialised memory without an error.
     """
 
-    platform: "pyrender.platforms.base.Platform"
+    platform: "Platform"
     thread: int
 
     @classmethod
@@ -90,7 +92,7 @@ class GLContext:
         return f"{_text(GL.GL_RENDERER)}; {self.version()}"
 
 
-def _new_platform() -> "pyrender.platforms.base.Platform":
+def _new_platform() -> "Platform":
     # Importing one platform fails where only the other one's library is installed.
     if os.environ["PYOPENGL_PLATFORM"] == "egl":
         from pyrender.platforms.egl import EGLPlatform, get_device_by_index  # noqa: PLC0415

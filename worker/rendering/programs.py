@@ -1,4 +1,4 @@
-"""GLSL programs whose uniforms are typed: a wrong name or a wrong shape is an error, never silence."""
+"""GLSL programs with typed uniforms: a wrong name or a wrong shape is an error, never silence."""
 
 import re
 from collections.abc import Callable, Hashable

@@ -9,7 +9,7 @@ import copy
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 import pyrender
@@ -24,6 +24,9 @@ from worker.rendering.programs import Program, ProgramCache
 from worker.rendering.samplers import SamplerCache
 from worker.rendering.shading import Shading
 from worker.rendering.targets import Target
+
+UploadedMesh: TypeAlias = pyrender.Primitive
+"""A mesh in OpenGL."""
 
 _SET_BY_PYRENDER = frozenset({"V", "P", "cam_pos"})
 
@@ -47,7 +50,7 @@ class View:
 class Drawable:
     """A mesh in OpenGL, a surface, and where they stand."""
 
-    primitive: "pyrender.Primitive"
+    primitive: UploadedMesh
     shading: Shading
     world_from_object: Matrix
 
@@ -89,7 +92,7 @@ class MatrixCamera(pyrender.Camera):  # type: ignore[misc]
         return self._clip_from_camera
 
 
-def upload_mesh(mesh: Mesh) -> "pyrender.Primitive":
+def upload_mesh(mesh: Mesh) -> UploadedMesh:
     """Copy a mesh to OpenGL; attributes 0, 1, 2 are position, normal and uv."""
     primitive = pyrender.Primitive(
         positions=mesh.positions, normals=mesh.normals, texcoord_0=mesh.uv, indices=mesh.triangles
@@ -98,7 +101,7 @@ def upload_mesh(mesh: Mesh) -> "pyrender.Primitive":
     return primitive
 
 
-def delete_mesh(primitive: "pyrender.Primitive") -> None:
+def delete_mesh(primitive: UploadedMesh) -> None:
     """Free a mesh's buffers."""
     primitive.delete()
 

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-import pyrender
 
 from api_schemas import meshes
 from api_schemas.camera import OrthographicCamera
@@ -22,7 +21,7 @@ from worker.geometry.transforms import (
 from worker.images.image import Image, Meaning
 from worker.images.pyramids import mip_chain
 from worker.rendering.cache import ByteCache
-from worker.rendering.pyrender_adapter import Drawable, View, delete_mesh, upload_mesh
+from worker.rendering.pyrender_adapter import Drawable, UploadedMesh, View, delete_mesh, upload_mesh
 from worker.rendering.shading import shade
 from worker.rendering.textures import Texture
 
@@ -54,7 +53,7 @@ class SceneBuilder:
     def __init__(self) -> None:
         """Begin with nothing in OpenGL."""
         self._textures = ByteCache[Texture](TEXTURE_BYTES_MAX, Texture.delete)
-        self._meshes = ByteCache["pyrender.Primitive"](MESH_BYTES_MAX, delete_mesh)
+        self._meshes = ByteCache[UploadedMesh](MESH_BYTES_MAX, delete_mesh)
 
     def build(self, scene: Scene, aspect: float, maker: TextureMaker) -> BuiltScene:
         """Place, upload and lay out everything in a scene.
@@ -65,7 +64,7 @@ class SceneBuilder:
             maker: Makes the pictures of textures that are not kept from an earlier scene.
 
         Raises:
-            WorkerError: The camera is degenerate, a budget is exceeded, or a texture cannot be made.
+            WorkerError: The camera is degenerate, a budget is exceeded, a texture cannot be made.
         """
         view = View(
             world_from_camera=world_from_camera(scene.camera.pose),
@@ -120,7 +119,7 @@ def _placed(nodes: list[Node], world_from_parent: Matrix) -> Iterator[tuple[Node
         yield from _placed(node.children, matrix)
 
 
-def _mesh(spec: meshes.Mesh) -> tuple["pyrender.Primitive", int]:
+def _mesh(spec: meshes.Mesh) -> tuple[UploadedMesh, int]:
     mesh = primitives.build(spec)
     return upload_mesh(mesh), mesh.size_bytes
 

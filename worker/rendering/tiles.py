@@ -20,7 +20,7 @@ class Tile:
 
 
 def pixels_per_tile(supersampling: int) -> int:
-    """Return the side of a tile in pixels: even, so that tiles cut no 2 x 2 block of derivatives."""
+    """Return a tile's side in pixels: even, so that no 2 x 2 block of derivatives is cut."""
     return SAMPLES_MAX // supersampling // 2 * 2
 
 
