@@ -1,4 +1,4 @@
-"""What every contract shares: immutable, closed to unknown fields, numbers that float32 can hold."""
+"""What contracts share: immutable, closed to unknown fields, numbers that float32 can hold."""
 
 from typing import Annotated, Any
 

@@ -12,10 +12,10 @@ class LookAt(Schema):
     """Stand here, look there."""
 
     eye: Vector = Field(description="Where the camera is.")
-    target: Vector = Field(default=[0.0, 0.0, 0.0], description="What is in the middle of the picture.")
-    up: Vector = Field(
-        default=[0.0, 1.0, 0.0], description="What points upwards in the picture."
+    target: Vector = Field(
+        default=[0.0, 0.0, 0.0], description="What is in the middle of the picture."
     )
+    up: Vector = Field(default=[0.0, 1.0, 0.0], description="What points upwards in the picture.")
 
 
 Pose = Annotated[

@@ -1,4 +1,4 @@
-"""What a piece of work will take, guessed before it starts: wall seconds on one core and bytes at its peak."""
+"""What work will take, guessed before it starts: wall seconds on one core, bytes at its peak."""
 
 from dataclasses import dataclass
 from typing import Self

@@ -10,6 +10,9 @@ from api_schemas.cost import Cost
 
 Meaning = Literal["colour", "data"]
 
+SURFACE_SIDE = 1024
+"""Pixels along each side of a texture without a size of its own, where it lies on a surface."""
+
 
 class TechniqueSpec(Schema):
     """One technique with its parameters; the class carries what documentation and digests need."""
@@ -30,10 +33,10 @@ class TextureSpec(TechniqueSpec):
     meaning: ClassVar[Meaning] = "colour"
     """Whether the result is light (sRGB in a PNG) or numbers (quantised as they are)."""
     sized: ClassVar[bool] = False
-    """Whether the technique has a size of its own in pixels; otherwise it is a function on the unit tile."""
+    """Whether it has a size of its own in pixels; otherwise it is a function on the unit tile."""
 
     def cost(self, pixels: int) -> Cost:
-        """Estimate this technique alone, without the textures nested in it, at a number of pixels."""
+        """Estimate this technique at a number of pixels, without the textures nested in it."""
         return Cost(seconds=pixels * 2e-8, bytes=pixels * 32)
 
 

@@ -15,7 +15,7 @@ from pydantic import Discriminator, Field, Tag
 from typing_extensions import TypeAliasType
 
 from api_schemas import coordinates, surfaces, textures
-from api_schemas.base import Color, NonNegative, Number
+from api_schemas.base import Color, NonNegative, Number, Schema
 from api_schemas.families import CoordinatesSpec, SurfaceSpec, TechniqueSpec, TextureSpec
 from api_schemas.maps import ColorMap, Map, NumberMap
 
@@ -98,7 +98,8 @@ def _complete() -> None:
         )
     }
     members = [spec for family in FAMILIES.values() for spec in family.values()]
-    for model in (Map, ColorMap, NumberMap, *members):
+    models: list[type[Schema]] = [Map, ColorMap, NumberMap, *members]
+    for model in models:
         module = importlib.import_module(model.__module__)
         model.model_rebuild(force=True, _types_namespace={**vars(module), **names})
 

@@ -31,7 +31,9 @@ DATA = Slot("data")
 class TextureTransform(Schema):
     """Moves the picture on the surface: coordinates are scaled, then turned, then shifted."""
 
-    offset: Pair = Field(default=[0.0, 0.0], description="Shift of the coordinates in tiles, u then v.")
+    offset: Pair = Field(
+        default=[0.0, 0.0], description="Shift of the coordinates in tiles, u then v."
+    )
     rotation: Angle = Field(
         default=0.0, description="Counter-clockwise turn of the coordinates in radians."
     )
@@ -44,7 +46,9 @@ class Map(Schema):
     """What colour maps and number maps share."""
 
     coordinates: Coordinates = Field(
-        default={"technique": "uv"}, validate_default=True, description="Where on the texture to look."
+        default={"technique": "uv"},
+        validate_default=True,
+        description="Where on the texture to look.",
     )
     transform: TextureTransform = Field(
         default=TextureTransform(), description="Moves, turns and repeats the picture."

@@ -31,7 +31,7 @@ class Cylinder(Schema):
 
 
 class Sphere(Schema):
-    """A globe round the origin with its poles on y: u runs along the equator, v from south to north."""
+    """A globe with its poles on y: u runs along the equator, v from south to north."""
 
     type: Literal["sphere"]
     radius: Length = Field(default=1.0, description="Half its width.")
@@ -41,7 +41,7 @@ class Sphere(Schema):
     )
     flip_u: bool = Field(
         default=True,
-        description="True: text reads from outside, as on a globe. False: from inside, as on a sky.",
+        description="Text reads from outside, as on a globe; without it from inside, as on a sky.",
     )
 
     @property
@@ -56,7 +56,9 @@ class Plane(Schema):
     type: Literal["plane"]
     width: Length = Field(default=2.0, description="Extent along x.")
     height: Length = Field(default=2.0, description="Extent along y, or along -z when it faces +y.")
-    facing: Facing = Field(default="+z", description="Standing like a poster, or lying like a floor.")
+    facing: Facing = Field(
+        default="+z", description="Standing like a poster, or lying like a floor."
+    )
 
     @property
     def triangles(self) -> int:
@@ -65,7 +67,10 @@ class Plane(Schema):
 
 
 class Box(Schema):
-    """A box round the origin; each face shows the whole texture upright, top and bottom seen from the front."""
+    """A box round the origin; each face shows the whole texture upright.
+
+    The top and the bottom are upright for somebody who stands in front (at +z).
+    """
 
     type: Literal["box"]
     width: Length = Field(default=2.0, description="Extent along x.")
@@ -99,7 +104,9 @@ class Disk(Schema):
     type: Literal["disk"]
     radius: Length = Field(default=1.0, description="Half its width.")
     segments: RoundCount = Field(default=64, description="Corners of its rim.")
-    facing: Facing = Field(default="+z", description="Standing like a poster, or lying like a floor.")
+    facing: Facing = Field(
+        default="+z", description="Standing like a poster, or lying like a floor."
+    )
 
     @property
     def triangles(self) -> int:
@@ -107,6 +114,4 @@ class Disk(Schema):
         return self.segments
 
 
-Mesh = Annotated[
-    Cylinder | Sphere | Plane | Box | Torus | Disk, Field(discriminator="type")
-]
+Mesh = Annotated[Cylinder | Sphere | Plane | Box | Torus | Disk, Field(discriminator="type")]

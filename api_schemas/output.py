@@ -31,7 +31,8 @@ class Output(Schema):
         description="How a PNG holds light: auto is sRGB for colour and the bare numbers for data.",
     )
     exposure: Annotated[float, Field(ge=-32, le=32)] = Field(
-        default=0.0, description="Stops by which a PNG of colour is brightened; an EXR keeps the light."
+        default=0.0,
+        description="Stops by which a PNG of colour is brightened; an EXR keeps the light.",
     )
     tone_curve: Literal["none", "reinhard", "aces"] = Field(
         default="none",

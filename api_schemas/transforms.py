@@ -15,7 +15,7 @@ class Placement(Schema):
     translation: Vector = Field(default=[0.0, 0.0, 0.0], description="Shift along x, y and z.")
     rotation: Quaternion = Field(
         default=[0.0, 0.0, 0.0, 1.0],
-        description="Turn as a quaternion x, y, z, w; its length does not matter, but it may not be zero.",
+        description="Turn as a quaternion x, y, z, w, of any length but zero.",
     )
     scale: Vector = Field(default=[1.0, 1.0, 1.0], description="Stretch along x, y and z.")
 

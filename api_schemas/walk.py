@@ -1,4 +1,4 @@
-"""Walks over a request: every part of it with its JSON pointer and the meaning of the slot it is in."""
+"""Walks over a request: its parts with their JSON pointers and the meaning of their slots."""
 
 from collections.abc import Callable, Iterator
 from typing import TypeVar
@@ -21,13 +21,22 @@ def parts(value: object, pointer: str = "") -> Iterator[tuple[str, Schema]]:
             yield from parts(item, f"{pointer}/{index}")
 
 
-def depth(value: object) -> int:
-    """Return how many schemas lie within each other at the deepest place."""
+def deepest(value: object, kinds: tuple[type[Schema], ...], pointer: str = "") -> tuple[int, str]:
+    """Return how many schemas of the kinds lie within each other at most, and where."""
     if isinstance(value, Schema):
-        return 1 + max((depth(getattr(value, name)) for name in type(value).model_fields), default=0)
+        inner = [
+            deepest(getattr(value, name), kinds, f"{pointer}/{name}")
+            for name in type(value).model_fields
+        ]
+        levels, place = max(inner, default=(0, pointer))
+        place = place if levels else pointer
+        return (levels + isinstance(value, kinds), place)
     if isinstance(value, list):
-        return max(map(depth, value), default=0)
-    return 0
+        return max(
+            (deepest(item, kinds, f"{pointer}/{i}") for i, item in enumerate(value)),
+            default=(0, pointer),
+        )
+    return (0, pointer)
 
 
 def rewrite(

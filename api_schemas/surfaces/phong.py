@@ -48,6 +48,6 @@ class PhongSpec(SurfaceSpec):
     )
     normalization: Literal["none", "energy"] = Field(
         default="none",
-        description="none is the formula as written; energy divides the matt part by pi and weights "
-        "the highlight by (n + 2) / (2 pi) and n.l, so that a tighter highlight is brighter.",
+        description="none is the formula as written; energy divides the matt part by pi and "
+        "weights the highlight by (n + 2) / (2 pi) and n.l: a tighter highlight is brighter.",
     )

@@ -39,7 +39,7 @@ class PerlinSpec(TextureSpec):
     )
     gradients: Literal["eight", "reference"] = Field(
         default="eight",
-        description="Eight unit directions, or the z = 0 slice of the 2002 noise in three dimensions.",
+        description="Eight unit directions, or the z = 0 slice of the solid noise of 2002.",
     )
     range: Literal["unit", "signed"] = Field(
         default="unit", description="Values around 0.5 within 0..1, or around 0 within -1..1."

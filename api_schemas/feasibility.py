@@ -1,0 +1,127 @@
+"""Requests that are well-formed and still cannot be drawn: told before any work starts."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from api_schemas.camera import Camera
+from api_schemas.families import SurfaceSpec, TextureSpec
+from api_schemas.geometry import IDENTITY, Affine, affine, cross, length, triple
+from api_schemas.lights import DirectionalLight, Light, SpotLight
+from api_schemas.maps import Map
+from api_schemas.requests import RenderRequest, Request
+from api_schemas.scene import Node
+from api_schemas.textures.image import ImageSpec
+from api_schemas.transforms import MatrixPlacement
+from api_schemas.walk import deepest, parts
+
+LEVELS_MAX = 32
+NODES_MAX = 256
+MAPS_MAX = 24
+SHORTEST_DIRECTION = 1e-12
+SMALLEST_SINE = 1e-7
+"""Sine of the angle between viewing and up direction below which float32 cannot tell up."""
+
+
+@dataclass(frozen=True, slots=True)
+class Obstacle:
+    """One reason why a valid request cannot be done, and where in the body it lies."""
+
+    code: str
+    pointer: str
+    message: str
+
+
+def obstacles(request: Request) -> list[Obstacle]:
+    """Return all that stands in the way, in the order of the body; empty when all is well."""
+    found = list(_limits(request))
+    if found or not isinstance(request, RenderRequest):
+        return found
+    found += _camera(request.scene.camera)
+    for index, light in enumerate(request.scene.lights):
+        found += _light(light, f"/scene/lights/{index}")
+    for index, node in enumerate(request.scene.nodes):
+        found += _node(node, f"/scene/nodes/{index}", IDENTITY)
+    return found
+
+
+def assets_in(request: Request) -> list[tuple[str, str]]:
+    """Return the pointer and the SHA-256 of every asset a request speaks of."""
+    return [
+        (f"{pointer}/asset", part.asset)
+        for pointer, part in parts(request)
+        if isinstance(part, ImageSpec)
+    ]
+
+
+def _limits(request: Request) -> Iterator[Obstacle]:
+    levels, place = deepest(request, (TextureSpec, Node))
+    if levels > LEVELS_MAX:
+        yield Obstacle(
+            "nesting_too_deep", place, f"{levels} levels within each other; at most {LEVELS_MAX}"
+        )
+    count = 0
+    for pointer, part in parts(request):
+        count += isinstance(part, TextureSpec | Node)
+        if isinstance(part, SurfaceSpec):
+            maps = sum(isinstance(value, Map) for _, value in parts(part))
+            if maps > MAPS_MAX:
+                yield Obstacle(
+                    "too_many_maps", pointer, f"{maps} maps on one surface; at most {MAPS_MAX}"
+                )
+    if count > NODES_MAX:
+        yield Obstacle(
+            "too_many_nodes", "", f"{count} textures and scene nodes together; at most {NODES_MAX}"
+        )
+
+
+def _camera(camera: Camera) -> Iterator[Obstacle]:
+    code = "camera_degenerate"
+    pointer = "/scene/camera"
+    if camera.near >= camera.far:
+        yield Obstacle(
+            code, f"{pointer}/near", f"near {camera.near:g} is not below far {camera.far:g}"
+        )
+    pose = camera.pose
+    if isinstance(pose, MatrixPlacement):
+        placed = affine(pose)
+        if placed is None or placed.is_degenerate():
+            yield Obstacle(
+                code, f"{pointer}/pose/matrix", "the matrix is not an invertible affine map"
+            )
+        return
+    eye, target, up = triple(pose.eye), triple(pose.target), triple(pose.up)
+    view = (target[0] - eye[0], target[1] - eye[1], target[2] - eye[2])
+    if length(view) < SHORTEST_DIRECTION:
+        yield Obstacle(code, f"{pointer}/pose/target", "eye and target are the same point")
+    elif length(up) < SHORTEST_DIRECTION:
+        yield Obstacle(code, f"{pointer}/pose/up", "up has no direction")
+    elif length(cross(view, up)) <= SMALLEST_SINE * length(view) * length(up):
+        yield Obstacle(code, f"{pointer}/pose/up", "the camera looks along its up vector")
+
+
+def _light(light: Light, pointer: str) -> Iterator[Obstacle]:
+    if (
+        isinstance(light, DirectionalLight | SpotLight)
+        and length(triple(light.direction)) < SHORTEST_DIRECTION
+    ):
+        yield Obstacle("light_degenerate", f"{pointer}/direction", "the light has no direction")
+    if isinstance(light, SpotLight) and light.outer_angle < light.inner_angle:
+        yield Obstacle(
+            "light_degenerate",
+            f"{pointer}/outer_angle",
+            f"outer angle {light.outer_angle:g} is below inner angle {light.inner_angle:g}",
+        )
+
+
+def _node(node: Node, pointer: str, parent: Affine) -> Iterator[Obstacle]:
+    placed = affine(node.transform)
+    world = parent @ placed if placed else None
+    if world is None or world.is_degenerate():
+        yield Obstacle(
+            "transform_singular",
+            f"{pointer}/transform",
+            "the transform, with those above it, is not an invertible affine map of usable size",
+        )
+        return
+    for index, child in enumerate(node.children):
+        yield from _node(child, f"{pointer}/children/{index}", world)

@@ -1,0 +1,29 @@
+"""A request with nothing left to guess: what its digest is taken of and what the worker runs."""
+
+from collections.abc import Mapping
+
+from api_schemas.assets import AssetFacts
+from api_schemas.base import Schema
+from api_schemas.families import Meaning
+from api_schemas.output import Format
+from api_schemas.requests import RenderRequest, Request, TextureRequest
+from api_schemas.textures.image import ImageSpec
+from api_schemas.walk import rewrite
+
+
+def normalise(request: Request, file_format: Format, facts: Mapping[str, AssetFacts]) -> Request:
+    """Settle the file format and the encoding of every uploaded picture.
+
+    `auto` becomes srgb for pictures of 8 or 16 bits in the place of a colour, else linear.
+    """
+
+    def settle(part: Schema, meaning: Meaning) -> Schema:
+        if not isinstance(part, ImageSpec) or part.encoding != "auto":
+            return part
+        asset = facts[part.asset]
+        encoded = meaning == "colour" and not asset.float
+        return part.model_copy(update={"encoding": "srgb" if encoded else "linear"})
+
+    output = request.output.model_copy(update={"format": file_format})
+    settled: TextureRequest | RenderRequest = rewrite(request, settle)
+    return settled.model_copy(update={"output": output})

@@ -1,0 +1,46 @@
+import json
+from pathlib import Path
+
+import api_schemas
+from api_schemas.estimate import estimate
+from api_schemas.requests import REQUESTS, RenderRequest, TextureRequest
+
+EXAMPLES = Path(api_schemas.__file__).parent / "examples"
+CAN = json.loads((EXAMPLES / "renders/soda_can.json").read_text())
+
+
+def can(**output):
+    return RenderRequest.model_validate({**CAN, "output": output})
+
+
+def test_four_times_the_samples_cost_about_four_times_the_time():
+    small = estimate(can(size=[2048, 2048], supersampling=2), {}).seconds
+    large = estimate(can(size=[4096, 4096], supersampling=2), {}).seconds
+
+    assert 3 < large / small < 4.2
+
+
+def test_a_picture_of_16384_squared_is_told_from_one_of_512_squared():
+    request = TextureRequest.model_validate(
+        {"texture": {"technique": "perlin"}, "output": {"size": [16384, 16384]}}
+    )
+
+    assert estimate(request, {}).bytes > 16384**2 * 16
+
+
+def test_supersampling_takes_time_but_tiles_keep_the_memory():
+    plain = estimate(can(size=[4096, 4096], supersampling=1), {})
+    fine = estimate(can(size=[4096, 4096], supersampling=8), {})
+
+    assert fine.seconds > 20 * plain.seconds
+    assert fine.bytes < 1.5 * plain.bytes
+
+
+def test_every_example_is_cheap():
+    for path in EXAMPLES.rglob("*.json"):
+        kind = {"textures": "texture", "renders": "render"}[path.parent.name]
+
+        cost = estimate(REQUESTS[kind].model_validate_json(path.read_text()), {})
+
+        assert cost.seconds < 10, path
+        assert cost.bytes < 1e9, path

@@ -1,0 +1,138 @@
+import math
+
+import pytest
+
+from api_schemas.feasibility import assets_in, obstacles
+from api_schemas.requests import RenderRequest, TextureRequest
+
+BLACK = [{"position": 0, "color": [0, 0, 0]}]
+STRAIGHT = {"eye": [0, 0, 4]}
+
+
+def scene(pose=STRAIGHT, lights=(), nodes=(), **camera):
+    return RenderRequest.model_validate(
+        {
+            "scene": {
+                "camera": {"type": "perspective", "pose": pose, **camera},
+                "lights": list(lights),
+                "nodes": list(nodes),
+            }
+        }
+    )
+
+
+def node(transform, *children):
+    return {"mesh": {"type": "sphere"}, "transform": transform, "children": list(children)}
+
+
+def found(request):
+    return [(obstacle.code, obstacle.pointer) for obstacle in obstacles(request)]
+
+
+def matrix(*columns, last=1):
+    rows = [[*list(column), 0] for column in columns]
+    rows[3][3] = last
+    return {"matrix": [number for row in rows for number in row]}
+
+
+X, Y, Z, O = [1, 0, 0], [0, 1, 0], [0, 0, 1], [0, 0, 0]  # noqa: E741
+
+
+def test_a_plain_scene_has_no_obstacles():
+    quarter = {"rotation": [math.sin(math.pi / 4), 0, 0, math.cos(math.pi / 4)]}
+
+    assert found(scene(nodes=[node(quarter, node({"scale": [-1, 2, 0.5]}))])) == []
+
+
+@pytest.mark.parametrize(
+    ("pose", "pointer"),
+    [
+        ({"eye": [0, 5, 0]}, "/scene/camera/pose/up"),
+        ({"eye": [0, -5, 0]}, "/scene/camera/pose/up"),
+        ({"eye": [1, 2, 3], "target": [1, 2, 3]}, "/scene/camera/pose/target"),
+        ({"eye": [0, 0, 4], "up": [0, 0, 0]}, "/scene/camera/pose/up"),
+        (matrix(X, X, Z, O), "/scene/camera/pose/matrix"),
+        (matrix(X, Y, Z, O, last=0), "/scene/camera/pose/matrix"),
+    ],
+)
+def test_a_camera_that_sees_nothing_is_degenerate(pose, pointer):
+    assert found(scene(pose)) == [("camera_degenerate", pointer)]
+
+
+def test_near_may_not_pass_far():
+    assert found(scene(near=2.0, far=1.0)) == [("camera_degenerate", "/scene/camera/near")]
+
+
+@pytest.mark.parametrize(
+    "transform",
+    [
+        {"scale": [1, 0, 1]},
+        {"rotation": [0, 0, 0, 0]},
+        {"scale": [1e-10, 1, 1]},
+        matrix(X, Y, [1, 1, 0], O),
+        matrix(X, Y, Z, O, last=2),
+    ],
+)
+def test_a_flat_transform_is_singular(transform):
+    place = "/scene/nodes/0/children/0/transform"
+
+    assert found(scene(nodes=[node({}, node(transform))])) == [("transform_singular", place)]
+
+
+def test_stretches_that_are_fine_alone_may_be_too_much_together():
+    big = {"scale": [1e6, 1e6, 1e6]}
+
+    assert found(scene(nodes=[node(big, node(big))])) == [
+        ("transform_singular", "/scene/nodes/0/children/0/transform")
+    ]
+
+
+def test_lights_need_a_direction_and_cones_an_order():
+    spot = {"type": "spot", "position": [0, 1, 0], "inner_angle": 0.5, "outer_angle": 0.4}
+    lights = [
+        {"type": "directional", "direction": [0, 0, 0]},
+        {**spot, "direction": [0, -1, 0]},
+    ]
+
+    assert found(scene(lights=lights)) == [
+        ("light_degenerate", "/scene/lights/0/direction"),
+        ("light_degenerate", "/scene/lights/1/outer_angle"),
+    ]
+
+
+@pytest.mark.parametrize(("levels", "codes"), [(32, []), (33, ["nesting_too_deep"])])
+def test_textures_nest_up_to_32_levels(levels, codes):
+    texture = {"technique": "perlin"}
+    for _ in range(levels - 1):
+        texture = {"technique": "ramp", "input": texture, "stops": BLACK}
+
+    request = TextureRequest.model_validate({"texture": texture})
+
+    assert [code for code, _ in found(request)] == codes
+
+
+@pytest.mark.parametrize(("count", "codes"), [(256, []), (257, ["too_many_nodes"])])
+def test_a_scene_has_up_to_256_nodes(count, codes):
+    halves = [node({}, *[node({})] * (count - 129)), *[node({})] * 128]
+
+    assert [code for code, _ in found(scene(nodes=halves))] == codes
+
+
+def test_assets_are_found_wherever_a_texture_may_stand():
+    first, second = "1" * 64, "2" * 64
+    surface = {
+        "technique": "phong",
+        "diffuse_color": {"texture": {"technique": "image", "asset": first}},
+        "exponent": {
+            "texture": {
+                "technique": "ramp",
+                "input": {"technique": "image", "asset": second},
+                "stops": BLACK,
+            }
+        },
+    }
+
+    assert assets_in(scene(nodes=[{"mesh": {"type": "box"}, "surface": surface}])) == [
+        ("/scene/nodes/0/surface/diffuse_color/texture/asset", first),
+        ("/scene/nodes/0/surface/exponent/texture/input/asset", second),
+    ]

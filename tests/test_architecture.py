@@ -1,0 +1,107 @@
+"""The house rules that no linter checks."""
+
+import json
+import re
+import subprocess
+import sys
+import tomllib
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from api_schemas.language import FAMILIES
+
+ROOT = Path(__file__).resolve().parent.parent
+MOST_LINES = 300
+
+# Where a technique's other parts lie; one that every family member needs is named by the technique.
+IMPLEMENTATIONS = {
+    "textures": "worker/synthesis/{}.py",
+    "surfaces": "worker/rendering/shaders/surfaces/{}.glsl",
+    "coordinates": "worker/rendering/shaders/coordinates/{}.glsl",
+}
+
+TECHNIQUES = [(family, name) for family, specs in FAMILIES.items() for name in specs]
+
+
+def techniques_in(value: object) -> Iterator[str]:
+    """Every technique that a request body names, however deep."""
+    if isinstance(value, dict):
+        if isinstance(technique := value.get("technique"), str):
+            yield technique
+        for inner in value.values():
+            yield from techniques_in(inner)
+    elif isinstance(value, list):
+        for inner in value:
+            yield from techniques_in(inner)
+
+
+def test_the_service_loads_no_native_code() -> None:
+    native = {"numpy", "numba", "scipy", "OpenGL", "pyrender", "OpenImageIO", "trimesh"}
+    program = f"import sys, service.app; print(*sorted({native} & set(sys.modules)))"
+
+    loaded = subprocess.run(
+        [sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True
+    )
+
+    assert loaded.stderr == ""
+    assert loaded.stdout.split() == []
+
+
+def test_no_module_is_longer_than_300_lines() -> None:
+    sources = [
+        path
+        for folder in ("api_schemas", "service", "worker", "tests", "docker")
+        for suffix in (".py", ".glsl", ".sh", ".js")
+        for path in (ROOT / folder).rglob(f"*{suffix}")
+    ]
+
+    too_long = [
+        f"{path.relative_to(ROOT)}: {lines} lines"
+        for path in sources
+        if (lines := len(path.read_text().splitlines())) > MOST_LINES
+    ]
+
+    assert too_long == []
+
+
+@pytest.mark.parametrize(("family", "technique"), TECHNIQUES)
+def test_a_technique_has_its_implementation(family: str, technique: str) -> None:
+    assert (ROOT / IMPLEMENTATIONS[family].format(technique)).is_file()
+
+
+@pytest.mark.parametrize(("family", "technique"), TECHNIQUES)
+def test_a_technique_has_an_example_that_shows_it(family: str, technique: str) -> None:
+    examples = (ROOT / "api_schemas" / "examples").rglob("*.json")
+
+    assert any(technique in techniques_in(json.loads(path.read_text())) for path in examples)
+
+
+@pytest.mark.parametrize(("family", "technique"), TECHNIQUES)
+def test_a_technique_has_a_golden_picture(family: str, technique: str) -> None:
+    assert list((ROOT / "tests" / "golden" / technique).glob("*.exr"))
+
+
+@pytest.mark.parametrize("family", IMPLEMENTATIONS)
+def test_an_implementation_has_its_spec(family: str) -> None:
+    """A leading underscore marks what techniques share."""
+    pattern = ROOT / IMPLEMENTATIONS[family].format("*")
+    implemented = {path.stem for path in pattern.parent.glob(pattern.name)}
+
+    unknown = {name for name in implemented if not name.startswith("_")} - set(FAMILIES[family])
+
+    assert unknown == set()
+
+
+@pytest.mark.parametrize("lock", ["requirements.lock", "requirements-dev.lock"])
+def test_a_lock_names_no_place_to_download_from(lock: str) -> None:
+    text = (ROOT / lock).read_text()
+
+    assert not re.search(r"://|\bfile:|--(find-links|(extra-)?index-url|trusted-host)|@ ", text)
+
+
+def test_the_changelog_tells_of_this_version() -> None:
+    version = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["version"]
+
+    assert re.search(rf"^## \[?{re.escape(version)}\b", (ROOT / "CHANGELOG.md").read_text(), re.M)
