@@ -23,9 +23,7 @@ class Result(Schema):
     sha256: Sha256 = Field(description="SHA-256 of its bytes; also its ETag.")
     width: Annotated[int, Field(ge=1)] = Field(description="Pixels from left to right.")
     height: Annotated[int, Field(ge=1)] = Field(description="Pixels from top to bottom.")
-    timings: dict[str, NonNegative] = Field(
-        default={}, description="Where the time went, by step."
-    )
+    timings: dict[str, NonNegative] = Field(default={}, description="Where the time went, by step.")
     warnings: list[JsonValue] = Field(
         default=[], description="What was done differently from what one might expect."
     )
@@ -81,4 +79,3 @@ class Validation(Schema):
     normalised: TextureRequest | RenderRequest | None = Field(
         description="The request with every default filled in and nothing left to guess."
     )
-

@@ -64,6 +64,4 @@ class SameOriginWrites:
         await self._app(scope, receive, send)
 
     def _is_trusted(self, origin: str, host: str) -> bool:
-        return (
-            origin in self._allowed or "*" in self._allowed or urlsplit(origin).netloc == host
-        )
+        return origin in self._allowed or "*" in self._allowed or urlsplit(origin).netloc == host

@@ -4,7 +4,6 @@
 """
 
 import json
-import sys
 from typing import Any
 
 from fastapi import FastAPI
@@ -13,7 +12,6 @@ from pydantic.json_schema import models_json_schema
 
 from api_schemas.problems import Problem
 from api_schemas.requests import REQUESTS
-from service.app import create_app
 
 DESCRIPTION = """\
 Describe a texture or a scene in JSON, get back a picture you can trust.

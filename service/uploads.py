@@ -1,9 +1,8 @@
 """Takes an upload in: to a file as it comes, hashed on the way, then looked at in a child."""
 
 import hashlib
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Iterator
 from contextlib import contextmanager
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Final
 

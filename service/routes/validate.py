@@ -63,9 +63,7 @@ async def validate(
     )
 
 
-def _validation(
-    body: bytes, engine: EmbeddedEngine, settings: Settings, tenant: str
-) -> Validation:
+def _validation(body: bytes, engine: EmbeddedEngine, settings: Settings, tenant: str) -> Validation:
     value = parsed(body)
     model = RenderRequest if isinstance(value, dict) and "scene" in value else TextureRequest
     asked = fitted(model, value)
