@@ -27,7 +27,7 @@ def main() -> None:
         for name in sys.argv[1:] or examples():
             path = GALLERY / f"{name}.png"
             facts = run_example(name, path, Path(folder), format="png")
-            print(f"{path.relative_to(ROOT)}  {facts['width']} x {facts['height']}")
+            sys.stdout.write(f"{path.relative_to(ROOT)}  {facts['width']} x {facts['height']}\n")
 
 
 if __name__ == "__main__":
