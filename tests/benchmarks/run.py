@@ -1,7 +1,7 @@
 """Runs every bench_<name>.py of this folder and writes what it measured to RESULTS.md.
 
 A benchmark is a module whose docstring says what is measured and whose `measure()` returns rows:
-mappings from column to value, in general `work`, `figure`, `unit` and `note`. Each runs in a process
+mappings from column to value, in general `work`, `figure`, `unit`, `note`. Each runs in a process
 of its own with the environment of the worker, so none inherits another's threads or memory.
 """
 
