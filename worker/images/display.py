@@ -7,6 +7,8 @@ from worker.images.colour import unpremultiply
 from worker.images.image import Image
 from worker.images.tone_curves import ToneCurve, apply_tone_curve, expose
 
+_BLOCK_TEXELS = 1 << 16
+
 
 def display_codes(
     image: Image, bits: Bits, transfer: Transfer, exposure: float, tone_curve: ToneCurve
@@ -20,12 +22,17 @@ def display_codes(
         exposure: In stops.
         tone_curve: From scene light to 0..1; "none" clips.
     """
-    straight = unpremultiply(image.pixels) if image.has_alpha else image.pixels
-    light = straight[..., :-1] if image.has_alpha else straight
-    if exposure != 0:
-        light = expose(light, exposure)
-    shown = codes_from_linear(apply_tone_curve(light, tone_curve), bits, transfer)
-    if not image.has_alpha:
-        return shown
-    alpha = codes_from_linear(straight[..., -1:], bits, "linear")
-    return np.concatenate([shown, alpha], axis=2)
+    codes = np.empty(image.pixels.shape, np.uint8 if bits == 8 else np.uint16)
+    # Some rows at a time: what lies between the steps then stays in the cache.
+    step = max(1, _BLOCK_TEXELS // image.width)
+    for start in range(0, image.height, step):
+        rows = slice(start, start + step)
+        light = unpremultiply(image.pixels[rows]) if image.has_alpha else image.pixels[rows]
+        alpha = light[..., -1]
+        if exposure != 0:
+            light = expose(light, exposure)
+        codes[rows] = codes_from_linear(apply_tone_curve(light, tone_curve), bits, transfer)
+        # Alpha took part above only because whole texels are quicker than parts of them.
+        if image.has_alpha:
+            codes[rows, :, -1] = codes_from_linear(alpha, bits, "linear")
+    return codes

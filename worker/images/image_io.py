@@ -123,7 +123,7 @@ def encode_png(
     exposure: float = 0.0,
     tone_curve: ToneCurve = "none",
 ) -> None:
-    """Write a PNG: straight alpha, 1 or 2 channels as grey; colour says its colour space.
+    """Write a PNG: straight alpha, 1 or 2 channels as grey, sRGB or gAMA chunks for light.
 
     Raises:
         OSError: The file cannot be written.
@@ -134,8 +134,9 @@ def encode_png(
     # Level 1 is 3 to 9 times faster than 6 and 9, for files a tenth larger.
     spec.attribute("png:compressionLevel", 1)
     spec.attribute("png:filter", _PNG_FILTERS[choose_png_filter(codes)])
-    if image.meaning == "colour":
-        spec.attribute("oiio:ColorSpace", _COLOUR_SPACES[transfer])
+    # Data in its own numbers says nothing about colour; without a word it would be called sRGB.
+    is_light = transfer == "srgb" or image.meaning == "colour"
+    spec.attribute("oiio:ColorSpace", _COLOUR_SPACES[transfer] if is_light else "data")
     _write("png", path, spec, codes)
 
 

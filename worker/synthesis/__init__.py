@@ -17,20 +17,23 @@ import pkgutil
 from collections import Counter
 from typing import TYPE_CHECKING, cast
 
-from api_schemas.families import TextureSpec
+from api_schemas.families import Meaning, TextureSpec
+from api_schemas.maps import Slot
 from api_schemas.textures.image import ImageSpec
-from api_schemas.walk import parts
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
     from types import ModuleType
 
     from worker.images.image import Image
 
-    Load = Callable[[ImageSpec], Image]
+    Key = tuple[str, Meaning]
+    Load = Callable[[ImageSpec, Meaning], Image]
 
 
-def synthesize(spec: TextureSpec, size: tuple[int, int], load: Load) -> Image:
+def synthesize(
+    spec: TextureSpec, size: tuple[int, int], load: Load, meaning: Meaning = "colour"
+) -> Image:
     """Make the picture of a texture and of all textures nested in it, at (width, height).
 
     Equal nested textures are made once.
@@ -38,30 +41,29 @@ def synthesize(spec: TextureSpec, size: tuple[int, int], load: Load) -> Image:
     Args:
         spec: A texture of any technique.
         size: Width and height in pixels, also of every nested picture.
-        load: Gives the picture of an uploaded asset in linear light, at its own size.
+        load: Gives the picture of an uploaded asset in linear light, at its own size, for a slot
+            that is read as colour or as data.
+        meaning: Of the slot that the texture itself is in.
 
     Raises:
         WorkerError: Whatever `load` raises.
     """
-    uses = Counter(_key(part) for _, part in parts(spec) if isinstance(part, TextureSpec))
-    shared: dict[str, Image] = {}
+    uses = Counter(_keys(spec, meaning))
+    shared: dict[Key, Image] = {}
 
-    def make(spec: TextureSpec) -> Image:
-        key = _key(spec)
+    def make(spec: TextureSpec, meaning: Meaning) -> Image:
+        key = _key(spec, meaning)
         if key in shared:
             return shared[key]
-        fields = {name: getattr(spec, name) for name in type(spec).model_fields}
-        inputs = {
-            name: make(value) for name, value in fields.items() if isinstance(value, TextureSpec)
-        }
+        inputs = {name: make(*slot) for name, slot in _slots(spec, meaning).items()}
         if isinstance(spec, ImageSpec):
-            inputs["asset"] = load(spec)
+            inputs["asset"] = load(spec, meaning)
         image = cast("Image", _module(spec.technique).synthesize(spec, size, inputs))
         if uses[key] > 1:
             shared[key] = image
         return image
 
-    return make(spec)
+    return make(spec, meaning)
 
 
 def techniques() -> list[str]:
@@ -80,8 +82,25 @@ def warm(report: Callable[[float, str], None]) -> None:
             module.warm()
 
 
-def _key(spec: TextureSpec) -> str:
-    return spec.model_dump_json()
+def _slots(spec: TextureSpec, meaning: Meaning) -> dict[str, tuple[TextureSpec, Meaning]]:
+    """Return the textures directly within a spec, each with the meaning of its slot."""
+    slots = {}
+    for name, field in type(spec).model_fields.items():
+        value = getattr(spec, name)
+        if isinstance(value, TextureSpec):
+            slot = next((item for item in field.metadata if isinstance(item, Slot)), None)
+            slots[name] = (value, slot.meaning if slot else meaning)
+    return slots
+
+
+def _key(spec: TextureSpec, meaning: Meaning) -> Key:
+    return (spec.model_dump_json(), meaning)
+
+
+def _keys(spec: TextureSpec, meaning: Meaning) -> Iterator[Key]:
+    yield _key(spec, meaning)
+    for slot in _slots(spec, meaning).values():
+        yield from _keys(*slot)
 
 
 def _module(technique: str) -> ModuleType:

@@ -138,11 +138,11 @@ def _fill_block(
     slope = np.empty((2, width), np.float32)
     terms = np.empty((4, width), np.float32)
     lower = 0
-    cell = np.int64(-2)
+    cell = -2
     for line in range(height):
         if line_cells[line] != cell:
             upper_is_ready = line_cells[line] == cell + 1
-            cell = np.int64(line_cells[line])
+            cell = int(line_cells[line])
             if upper_is_ready:
                 lower = 1 - lower
             else:
@@ -172,7 +172,7 @@ def _find_gradients(
     gradient_x: Floats,
     gradient_y: Floats,
     first: int,
-    line: int | np.int64,
+    line: int,
     layer: int,
     period: int,
     table: Indices,

@@ -7,9 +7,11 @@ from pathlib import Path
 
 import pytest
 
+from worker.jobs.database import Database
 from worker.jobs.engine import EmbeddedEngine
 from worker.jobs.forkserver import start_forkserver
 from worker.jobs.job import FINAL_STATES
+from worker.jobs.migrations import upgrade
 
 EXECUTORS = str(Path(__file__).parent / "executors")
 
@@ -63,17 +65,30 @@ def submit():
     return submit
 
 
-def wait_until(is_so, seconds=30.0):
-    """Wait for something to become true, and return it."""
-    deadline = time.monotonic() + seconds
-    while not (answer := is_so()):
-        assert time.monotonic() < deadline, "it did not happen in time"
-        time.sleep(0.005)
-    return answer
+@pytest.fixture
+def database(tmp_path):
+    database = Database(tmp_path / "jobs.sqlite")
+    upgrade(database)
+    yield database
+    database.close()
 
 
 @pytest.fixture
-def finish():
+def wait_until():
+    """Waits for something to become true, and returns it."""
+
+    def wait_until(is_so, seconds=30.0):
+        deadline = time.monotonic() + seconds
+        while not (answer := is_so()):
+            assert time.monotonic() < deadline, "it did not happen in time"
+            time.sleep(0.005)
+        return answer
+
+    return wait_until
+
+
+@pytest.fixture
+def finish(wait_until):
     """Waits for the end of a job and returns it."""
 
     def finish(engine, job, seconds=30.0):
