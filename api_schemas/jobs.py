@@ -23,9 +23,7 @@ class Result(Schema):
     sha256: Sha256 = Field(description="SHA-256 of its bytes; also its ETag.")
     width: Annotated[int, Field(ge=1)] = Field(description="Pixels from left to right.")
     height: Annotated[int, Field(ge=1)] = Field(description="Pixels from top to bottom.")
-    timings: dict[str, NonNegative] = Field(
-        default={}, description="Where the time went, by step."
-    )
+    timings: dict[str, NonNegative] = Field(default={}, description="Where the time went, by step.")
     warnings: list[JsonValue] = Field(
         default=[], description="What was done differently from what one might expect."
     )
@@ -49,6 +47,9 @@ class Job(Schema):
     digest: Sha256 = Field(description="SHA-256 of the request: equal digests, equal pictures.")
     position: Annotated[int, Field(ge=1)] | None = Field(
         description="Place in the queue, 1 being next, while queued."
+    )
+    attempt: Annotated[int, Field(ge=0)] = Field(
+        description="How many times the work was begun: again when a worker was lost."
     )
     progress: Annotated[float, Field(ge=0, le=1)] = Field(description="From 0 to 1.")
     stage: str | None = Field(description="What is being done, while running.")
@@ -81,4 +82,3 @@ class Validation(Schema):
     normalised: TextureRequest | RenderRequest | None = Field(
         description="The request with every default filled in and nothing left to guess."
     )
-

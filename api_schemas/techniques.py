@@ -47,6 +47,4 @@ class Technique(Schema):
     parameters: dict[str, JsonValue] = Field(
         description="JSON Schema of its parameters, complete with $defs."
     )
-    examples: list[dict[str, JsonValue]] = Field(
-        description="Whole request bodies that use it."
-    )
+    examples: list[dict[str, JsonValue]] = Field(description="Whole request bodies that use it.")

@@ -14,7 +14,9 @@ TEXT: Final = {"type": "string"}
 BINARY: Final = {"type": "string", "format": "binary"}
 
 
-def header(description: str, schema: Mapping[str, Any] = TEXT, *, required: bool = True) -> Document:
+def header(
+    description: str, schema: Mapping[str, Any] = TEXT, *, required: bool = True
+) -> Document:
     """Describe a header of a response."""
     return {"description": description, "schema": dict(schema), "required": required}
 

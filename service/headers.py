@@ -1,4 +1,4 @@
-"""Headers for every answer, and the refusal of pages from elsewhere that want to change something."""
+"""Headers for every answer, and the refusal of writes that pages from elsewhere send."""
 
 from collections.abc import Collection
 from typing import Final
@@ -64,6 +64,4 @@ class SameOriginWrites:
         await self._app(scope, receive, send)
 
     def _is_trusted(self, origin: str, host: str) -> bool:
-        return (
-            origin in self._allowed or "*" in self._allowed or urlsplit(origin).netloc == host
-        )
+        return origin in self._allowed or "*" in self._allowed or urlsplit(origin).netloc == host

@@ -161,9 +161,7 @@ def get_asset(request: Request, sha256: Name, engine: Engine, tenant: Tenant) ->
         "Content-Disposition": f'attachment; filename="{sha256[:12]}.{facts.format}"',
         "Vary": "Accept",
     }
-    return stored_file(
-        request, path, media_type=facts.media_type, sha256=sha256, headers=headers
-    )
+    return stored_file(request, path, media_type=facts.media_type, sha256=sha256, headers=headers)
 
 
 @router.delete(

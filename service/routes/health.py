@@ -53,9 +53,7 @@ def readyz(request: Request, engine: Engine) -> Ready:
     if facts.draining:
         raise ProblemError("draining", headers={"Retry-After": "5"})
     if not facts.warm_slots:
-        raise ProblemError(
-            "not_ready", "the workers are compiling", headers={"Retry-After": "1"}
-        )
+        raise ProblemError("not_ready", "the workers are compiling", headers={"Retry-After": "1"})
     return Ready(
         slots=facts.slots,
         warm_slots=facts.warm_slots,
