@@ -48,6 +48,9 @@ class Job(Schema):
     position: Annotated[int, Field(ge=1)] | None = Field(
         description="Place in the queue, 1 being next, while queued."
     )
+    attempt: Annotated[int, Field(ge=0)] = Field(
+        description="How many times the work was begun: again when a worker was lost."
+    )
     progress: Annotated[float, Field(ge=0, le=1)] = Field(description="From 0 to 1.")
     stage: str | None = Field(description="What is being done, while running.")
     created: AwareDatetime = Field(description="When the request arrived.")

@@ -12,7 +12,7 @@ from api_schemas.feasibility import assets_in, obstacles
 from api_schemas.normalise import normalise
 from api_schemas.output import Format
 from api_schemas.problems import CostFigures, Obstruction
-from api_schemas.requests import RenderRequest, Request
+from api_schemas.requests import Kind, RenderRequest, Request
 from service.problems import ProblemError
 
 FindFacts: TypeAlias = Callable[[str], AssetFacts | None]
@@ -82,7 +82,7 @@ def admitted(finding: Finding) -> tuple[Request, str]:
     return finding.request, finding.digest
 
 
-def kind_of(request: Request) -> str:
+def kind_of(request: Request) -> Kind:
     """Return what a request asks for."""
     return "render" if isinstance(request, RenderRequest) else "texture"
 

@@ -1,4 +1,4 @@
-"""Headers for every answer, and the refusal of pages from elsewhere that want to change something."""
+"""Headers for every answer, and the refusal of writes that pages from elsewhere send."""
 
 from collections.abc import Collection
 from typing import Final

@@ -31,6 +31,7 @@ def view(job: Job) -> schemas.Job:
             "priority": job.priority,
             "digest": job.digest,
             "position": job.position,
+            "attempt": job.attempt,
             "progress": job.progress,
             "stage": job.stage,
             "created": _time(job.created),

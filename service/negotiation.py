@@ -73,7 +73,7 @@ def require_accepted(request: Request, media_type: str) -> None:
 
 
 def quality(accept: str | None, media_type: str) -> float:
-    """Return the weight of a media type by the most exact range that covers it (RFC 9110, 12.5.1)."""
+    """Return the weight of a media type by the most exact range that covers it (RFC 9110)."""
     if accept is None or not accept.strip():
         return 1.0
     family = media_type.partition("/")[0]

@@ -51,8 +51,8 @@ class Settings(BaseSettings):
     )
     cost_limit_seconds: Annotated[float, Field(gt=0)] = Field(
         default=60.0,
-        description="Estimated time on one core beyond which a request is refused. A minute is what "
-        "somebody waits for a picture.",
+        description="Estimated time on one core beyond which a request is refused. A minute is "
+        "what somebody waits for a picture.",
     )
     cost_limit_bytes: Annotated[float, Field(gt=0)] = Field(
         default=2.0 * GIBIBYTE,
@@ -61,7 +61,8 @@ class Settings(BaseSettings):
     )
     memory_limit_bytes: Annotated[int, Field(ge=128 * MEBIBYTE)] = Field(
         default=4 * GIBIBYTE,
-        description="Memory at which a worker is killed. Twice the cost limit: estimates are rough.",
+        description="Memory at which a worker is killed. Twice the cost limit: estimates are "
+        "rough.",
     )
     body_limit_bytes: Annotated[int, Field(ge=1024)] = Field(
         default=MEBIBYTE,

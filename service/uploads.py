@@ -1,7 +1,7 @@
 """Takes an upload in: to a file as it comes, hashed on the way, then looked at in a child."""
 
 import hashlib
-from collections.abc import AsyncIterator, Iterator
+from collections.abc import AsyncGenerator, AsyncIterator, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Final
@@ -32,7 +32,7 @@ async def upload(request: Request, limit: int) -> AsyncIterator[bytes]:
     media_type = request.headers.get("content-type", "").partition(";")[0].strip().lower()
     if request.headers.get("content-encoding", "identity").lower() != "identity":
         raise ProblemError("media_type_unsupported", "compressed bodies are not taken")
-    if media_type.startswith("image/") or media_type == "application/octet-stream":
+    if media_type.startswith("image/") or media_type in ("", "application/octet-stream"):
         async for chunk in chunks(request, limit):
             yield chunk
     elif media_type == FORM:
@@ -82,7 +82,7 @@ def passing(path: Path) -> Iterator[Path]:
 
 
 async def _form_file(request: Request, limit: int) -> AsyncIterator[bytes]:
-    async def body() -> AsyncIterator[bytes]:
+    async def body() -> AsyncGenerator[bytes, None]:
         async for chunk in chunks(request, limit):
             yield chunk
 

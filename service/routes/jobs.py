@@ -114,7 +114,7 @@ async def get_job(request: Request, job_id: JobId, engine: Engine, tenant: Tenan
     },
 )
 def cancel_job(job_id: JobId, engine: Engine, tenant: Tenant) -> Response:
-    """Stops it wherever it is; one that is finished stays as it is, and asking again does no harm."""
+    """Stops it wherever it is; a finished one stays as it is, and asking again does no harm."""
     job = engine.cancel(tenant, job_id) if WELL_FORMED.fullmatch(job_id) else None
     if job is None:
         raise ProblemError("job_unknown")

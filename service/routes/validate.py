@@ -65,8 +65,8 @@ async def validate(
 
 def _validation(body: bytes, engine: EmbeddedEngine, settings: Settings, tenant: str) -> Validation:
     value = parsed(body)
-    model = RenderRequest if isinstance(value, dict) and "scene" in value else TextureRequest
-    asked = fitted(model, value)
+    scene = isinstance(value, dict) and "scene" in value
+    asked = fitted(RenderRequest, value) if scene else fitted(TextureRequest, value)
     finding = examine(
         asked,
         asked.output.format or "png",
