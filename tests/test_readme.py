@@ -4,7 +4,6 @@ from pathlib import Path
 
 import pytest
 
-from api_schemas.language import FAMILIES
 from service.settings import Settings
 
 README = (Path(__file__).resolve().parent.parent / "README.md").read_text()
@@ -13,8 +12,3 @@ README = (Path(__file__).resolve().parent.parent / "README.md").read_text()
 @pytest.mark.parametrize("setting", Settings.model_fields)
 def test_every_setting_is_in_the_readme(setting: str) -> None:
     assert f"`TEXLOOM_{setting.upper()}`" in README
-
-
-@pytest.mark.parametrize("family", FAMILIES)
-def test_every_technique_family_is_in_the_readme(family: str) -> None:
-    assert family in README.lower()
