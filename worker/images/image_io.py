@@ -159,9 +159,8 @@ def encode_exr(
     """
     channels = join_layers(layers, pixel_type)
     height, width, count = channels.pixels.shape
-    spec = OpenImageIO.ImageSpec(width, height, count, pixel_type)
-    # Equal formats must be set for all at once: per channel they would be ignored.
-    spec.set_format(OpenImageIO.TypeDesc(channels.types[0]))
+    # Formats per channel are ignored when all are equal: the common one must be given here.
+    spec = OpenImageIO.ImageSpec(width, height, count, channels.types[0])
     if len(set(channels.types)) > 1:
         spec.channelformats = tuple(OpenImageIO.TypeDesc(name) for name in channels.types)
     spec.channelnames = channels.names

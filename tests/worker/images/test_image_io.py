@@ -87,6 +87,14 @@ def test_layers_lie_side_by_side_each_in_its_own_type(tmp_path: Path) -> None:
     assert measure(path)["channels"] == 4
 
 
+def test_data_alone_is_float_where_colour_would_be_half(tmp_path: Path) -> None:
+    ids = Image(np.full((4, 4, 1), 4097, np.float32), "data")
+
+    encode_exr({"id": ids}, tmp_path / "ids", pixel_type="half", digest="", version="")
+
+    assert (parse_exr((tmp_path / "ids").read_bytes()).channels["id"] == 4097).all()
+
+
 def test_equal_pictures_give_equal_bytes_at_any_time(tmp_path: Path) -> None:
     def encode() -> list[bytes]:
         write_exr(tmp_path / "exr", noise(4))
