@@ -108,10 +108,7 @@ def read(path: Path, encoding: Transfer, meaning: Meaning) -> Image:
     with _opened(path, kind) as file:
         header = inspect(file.spec(), kind)
         decoded = _decode(file, header)
-    pixels = linearise(decoded, encoding, header.alpha, meaning)
-    if header.rec709 is not None and meaning == "colour":
-        with np.errstate(over="ignore", invalid="ignore"):
-            pixels[..., :3] = pixels[..., :3] @ header.rec709.astype(np.float32).T
+    pixels = linearise(decoded, encoding, header.alpha, meaning, header.rec709)
     return Image(turn(place(pixels, header.data, header.display), header.orientation), meaning)
 
 

@@ -48,6 +48,29 @@ def test_data_is_never_multiplied(alpha: str) -> None:
 def test_float_numbers_stay_what_they_are() -> None:
     values = texel(4.0, -1.0, 1e30, kind=np.float32)
 
-    assert linearise(values, "linear", "none", "colour").tolist() == values.tolist()
+    linear = linearise(values.copy(), "linear", "none", "colour")
+    decoded = linearise(values.copy(), "srgb", "none", "colour")
+
     four = ((4 + 0.055) / 1.055) ** 2.4
-    assert linearise(values, "srgb", "none", "colour")[0, 0, 0] == pytest.approx(four, rel=1e-6)
+    assert linear.tolist() == values.tolist()
+    assert decoded[0, 0, 0] == pytest.approx(four, rel=1e-6)
+
+
+@pytest.mark.parametrize("size", [(301, 300), (3, 70000)])
+def test_every_row_is_decoded_however_rows_fall_into_blocks(size: tuple[int, int]) -> None:
+    codes = np.random.default_rng(8).integers(0, 256, (*size, 4), np.uint8)
+
+    numbers = linearise(codes, "linear", "straight", "data")
+
+    assert np.array_equal(np.rint(numbers * 255), codes)
+
+
+def test_other_primaries_become_rec709_as_colour_only() -> None:
+    swap = np.array([[0, 1, 0], [1, 0, 0], [0, 0, 1]], np.float64)
+    values = texel(1.0, 2.0, 3.0, 0.5, kind=np.float32)
+
+    colour = linearise(values.copy(), "linear", "associated", "colour", swap)
+    data = linearise(values.copy(), "linear", "associated", "data", swap)
+
+    assert colour.tolist() == [[[2, 1, 3, 0.5]]]
+    assert data.tolist() == values.tolist()
