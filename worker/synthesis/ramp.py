@@ -6,8 +6,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from api_schemas.textures.constant import ConstantSpec
-from api_schemas.textures.ramp import RampSpec, RampStop
 from worker.images.image import Image
 from worker.numba_kernel import parallel_kernel, prange
 
@@ -15,6 +13,8 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from numpy.typing import NDArray
+
+    from api_schemas.textures.ramp import RampSpec
 
 _INTERPOLATIONS = {"linear": 0, "smooth": 1, "step": 2}
 
@@ -41,10 +41,8 @@ def synthesize(spec: RampSpec, size: tuple[int, int], inputs: Mapping[str, Image
 
 def warm() -> None:
     """Compile the kernel."""
-    stop = RampStop(position=0.0, color=[0.0, 0.0, 0.0])
-    scalar = ConstantSpec(technique="constant", value=0.0)
-    spec = RampSpec(technique="ramp", input=scalar, stops=[stop])
-    synthesize(spec, (1, 1), {"input": Image(np.zeros((1, 1, 1), np.float32), "data")})
+    pixels = np.empty((1, 1, 3), np.float32)
+    _fill_ramp(pixels, np.zeros((1, 1), np.float32), np.zeros(1), np.zeros((1, 3)), 0)
 
 
 @parallel_kernel

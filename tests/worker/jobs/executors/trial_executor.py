@@ -70,6 +70,13 @@ def _sleep_once(body, out, report):
         time.sleep(60)
 
 
+def _stuck_once(body, out, report):
+    marker = Path(body["marker"])
+    if not marker.exists():
+        marker.touch()
+        _stuck(body, out, report)
+
+
 def _segfault(body, out, report):
     out.write_bytes(b"half")
     ctypes.string_at(0)
@@ -127,6 +134,7 @@ _DO = {
     "describe": _describe,
     "sleep": _sleep,
     "sleep once": _sleep_once,
+    "stuck once": _stuck_once,
     "segfault": _segfault,
     "stuck": _stuck,
     "refuse": _refuse,
