@@ -46,6 +46,7 @@ class Problem(Schema):
     status: Annotated[int, Field(ge=400, le=599)] = Field(description="The HTTP status.")
     code: Code = Field(description="What is wrong, for programs; it never changes.")
     detail: str | None = Field(default=None, description="What is wrong this time, for people.")
+    instance: str | None = Field(default=None, description="The job it is about.")
     pointer: Pointer | None = Field(
         default=None, description="JSON pointer into the request body, where one value is to blame."
     )

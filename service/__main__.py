@@ -45,11 +45,6 @@ def main() -> int:
     )
     start_forkserver()
     engine = make_engine(settings)
-    try:
-        engine.start()
-    except DataFolderInUseError as error:
-        print(f"texloom: {error}", file=sys.stderr)  # noqa: T201
-        return 1
     config = uvicorn.Config(
         create_app(settings, engine),
         host=settings.host,
@@ -61,6 +56,11 @@ def main() -> int:
     )
     server = Server(config, engine, settings.drain_seconds)
     socket = config.bind_socket()
+    try:
+        engine.start()
+    except DataFolderInUseError as error:
+        print(f"texloom: {error}", file=sys.stderr)  # noqa: T201
+        return 1
     host, port = socket.getsockname()[:2]
     print(f"Texloom serves http://{host}:{port} (documentation: /docs)", flush=True)  # noqa: T201
     server.run([socket])

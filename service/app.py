@@ -5,6 +5,7 @@ from contextlib import asynccontextmanager
 from functools import partial
 from typing import Any
 
+from anyio import CapacityLimiter
 from fastapi import FastAPI
 from fastapi_offline import FastAPIOffline
 from starlette.concurrency import run_in_threadpool
@@ -28,6 +29,9 @@ EXPOSED = (
     "Texloom-Digest",
 )
 
+MEASURED_AT_ONCE = 2
+"""Uploads wait their turn here, so that they do not take all threads from everything else."""
+
 
 def create_app(settings: Settings, engine: EmbeddedEngine | None = None) -> FastAPI:
     """Return the app; an engine that is handed in is started and drained by its owner."""
@@ -47,9 +51,11 @@ def create_app(settings: Settings, engine: EmbeddedEngine | None = None) -> Fast
         version=VERSION,
         lifespan=lifespan,
         redirect_slashes=False,
+        swagger_ui_parameters={"validatorUrl": None},
     )
     app.state.settings = settings
     app.state.engine = engine
+    app.state.measuring = CapacityLimiter(MEASURED_AT_ONCE)
     for resource in (textures, renders, validate, jobs, assets, techniques, health):
         app.include_router(resource.router)
     error_handlers.install(app)

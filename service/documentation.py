@@ -26,6 +26,7 @@ ETAG: Final = {"ETag": header("The SHA-256 of the bytes, in quotes.")}
 RETRY_AFTER: Final = {
     "Retry-After": header("Seconds after which to ask again.", {"type": "integer", "minimum": 0})
 }
+LATER: Final = {"Retry-After": RETRY_AFTER["Retry-After"] | {"required": False}}
 PREFERENCE: Final = {
     "Preference-Applied": header("The preference that was heeded.", required=False)
 }
@@ -54,6 +55,8 @@ def problems(*codes: str) -> Responses:
         }
         if status in (429, 503):
             responses[status]["headers"] = RETRY_AFTER
+        if "job_not_finished" in names:
+            responses[status]["headers"] = LATER
     return responses
 
 
@@ -78,6 +81,7 @@ def json_request(name: str, examples: Mapping[str, Document]) -> Document:
 
 
 JSON_BODY_CODES: Final = (
+    "origin_refused",
     "json_malformed",
     "json_encoding",
     "json_duplicate_key",

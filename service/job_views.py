@@ -68,15 +68,19 @@ def require_succeeded(job: Job) -> None:
     Raises:
         ProblemError: The job is not finished, or did not succeed.
     """
+    here = job_url(job.id)
     if job.state == "failed":
         reason = failure(job)
-        raise ProblemError("job_failed", reason.message if reason else None, failure=reason)
+        raise ProblemError(
+            "job_failed", reason.message if reason else None, failure=reason, instance=here
+        )
     if job.state == "cancelled":
-        raise ProblemError("job_cancelled")
+        raise ProblemError("job_cancelled", instance=here)
     if job.state != "succeeded":
         raise ProblemError(
             "job_not_finished",
             f"the job is {job.state}",
+            instance=here,
             headers={"Retry-After": str(RETRY_SECONDS)},
         )
 

@@ -68,6 +68,7 @@ class ProblemError(Exception):
         estimate: CostFigures | None = None,
         limit: CostFigures | None = None,
         failure: JobFailure | None = None,
+        instance: str | None = None,
         headers: Mapping[str, str] | None = None,
     ) -> None:
         super().__init__(code)
@@ -83,6 +84,7 @@ class ProblemError(Exception):
             estimate=estimate,
             limit=limit,
             failure=failure,
+            instance=instance,
         )
         self.headers = dict(headers or {})
 

@@ -37,16 +37,15 @@ async def submitted(
     if wished.picture and job.state in FINAL_STATES:
         require_succeeded(job)
         return await run_in_threadpool(picture, request, job, engine, applied)
-    return job_answer(job, applied)
+    return job_answer(job, 200 if job.state in FINAL_STATES else 202, applied)
 
 
-def job_answer(job: Job, headers: dict[str, str]) -> Response:
-    """Answer with a job: 200 when it is finished, else 202."""
-    finished = job.state in FINAL_STATES
-    later = {} if finished else {"Retry-After": str(RETRY_SECONDS)}
+def job_answer(job: Job, status: int, headers: dict[str, str]) -> Response:
+    """Answer with a job; one that is not finished says when to ask again."""
+    later = {} if job.state in FINAL_STATES else {"Retry-After": str(RETRY_SECONDS)}
     return Response(
         view(job).model_dump_json(),
-        status_code=200 if finished else 202,
+        status_code=status,
         headers={
             "Location": job_url(job.id),
             "Cache-Control": "no-store",
@@ -68,7 +67,8 @@ def picture(
     """
     path = engine.result_path(job)
     if path is None:
-        raise ProblemError("result_evicted", "ask for the picture again to have it made again")
+        detail = "ask for the picture again to have it made again"
+        raise ProblemError("result_evicted", detail, instance=job_url(job.id))
     file = result(job)
     suffix = next(name for name, kind in MEDIA_TYPES.items() if kind == file.media_type)
     return stored_file(

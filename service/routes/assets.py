@@ -4,6 +4,7 @@ import pathlib
 import re
 from typing import Annotated, Final
 
+from anyio import to_thread
 from fastapi import APIRouter, Path
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
@@ -94,6 +95,7 @@ FOUND: Final[Responses] = {
             "links": LINKS,
         },
         **problems(
+            "origin_refused",
             "multipart_malformed",
             "asset_unusable",
             "asset_unsupported",
@@ -120,7 +122,9 @@ async def create_asset(
         status = 200
         if facts is None:
             limit = settings.measure_limit_seconds
-            facts = await run_in_threadpool(measured, engine, path, sha256, limit)
+            facts = await to_thread.run_sync(
+                measured, engine, path, sha256, limit, limiter=request.app.state.measuring
+            )
             await run_in_threadpool(
                 engine.assets.put, tenant, path, sha256, facts.model_dump(mode="json")
             )
@@ -170,7 +174,7 @@ def get_asset(request: Request, sha256: Name, engine: Engine, tenant: Tenant) ->
     operation_id="delete_asset",
     summary="Delete an upload",
     response_class=Response,
-    responses={204: {"description": "It is gone."}, **problems("asset_unknown")},
+    responses={204: {"description": "It is gone."}, **problems("origin_refused", "asset_unknown")},
 )
 def delete_asset(sha256: Name, engine: Engine, tenant: Tenant) -> Response:
     """Results made with it stay; new requests for it are refused."""

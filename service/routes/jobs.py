@@ -14,11 +14,11 @@ from service.documentation import (
     DIGEST,
     ETAG,
     IF_HEADERS,
+    LATER,
     LOCATION,
     PICTURES,
     PREFER,
     PREFERENCE,
-    RETRY_AFTER,
     header,
     job_links,
     problems,
@@ -75,15 +75,9 @@ def list_jobs(
     summary="Look at a job",
     responses={
         200: {
-            "description": "The job, finished.",
+            "description": "The job.",
             "model": Job,
-            "headers": LOCATION | PREFERENCE,
-            "links": job_links(),
-        },
-        202: {
-            "description": "The job, not yet finished.",
-            "model": Job,
-            "headers": LOCATION | PREFERENCE | RETRY_AFTER,
+            "headers": LOCATION | PREFERENCE | LATER,
             "links": job_links(),
         },
         **problems("job_unknown"),
@@ -96,7 +90,7 @@ async def get_job(request: Request, job_id: JobId, engine: Engine, tenant: Tenan
     seconds, applied = patience(request, 0)
     if seconds and job.state not in records.FINAL_STATES:
         job = await engine.finished(tenant, job.id, seconds) or job
-    return job_answer(job, {"Preference-Applied": applied} if applied else {})
+    return job_answer(job, 200, {"Preference-Applied": applied} if applied else {})
 
 
 @router.delete(
@@ -110,7 +104,7 @@ async def get_job(request: Request, job_id: JobId, engine: Engine, tenant: Tenan
             "model": Job,
             "headers": LOCATION,
         },
-        **problems("job_unknown"),
+        **problems("origin_refused", "job_unknown"),
     },
 )
 def cancel_job(job_id: JobId, engine: Engine, tenant: Tenant) -> Response:
