@@ -140,7 +140,7 @@ def test_progress_that_cannot_be_recorded_costs_nothing(engine, submit, finish, 
         raise StorageFullError
 
     monkeypatch.setattr(Claims, "report", refuse)
-    assert finish(engine, submit(engine, do="sleep", seconds=0.1)).state == "succeeded"
+    assert finish(engine, submit(engine, do="sleep", seconds=0.6)).state == "succeeded"
 
 
 def test_assets_that_were_deleted_under_running_work_go_with_its_end(

@@ -62,6 +62,12 @@ def _sleep(body, out, report):
         time.sleep(min(left, 0.02))
 
 
+def _burn(body, out, report):
+    end = time.monotonic() + body["seconds"]
+    while time.monotonic() < end:
+        pass
+
+
 def _wait(body, out, report):
     """Until the test opens the gate."""
     while not Path(body["gate"]).exists():
@@ -139,6 +145,7 @@ _DO = {
     "nothing": _nothing,
     "describe": _describe,
     "sleep": _sleep,
+    "burn": _burn,
     "wait": _wait,
     "sleep once": _sleep_once,
     "stuck once": _stuck_once,
