@@ -1,7 +1,8 @@
 """What the job engine costs, and how fast it gets over the worst.
 
-`python tests/benchmarks/bench_jobs.py` prints a table. The executor is the trial one of the tests, which
-needs no time to become warm: after the death of a child or of the service, a real one adds its own.
+`python tests/benchmarks/bench_jobs.py` prints a table. The executor is the trial one of the tests,
+which needs no time to become warm: after the death of a child or of the service, a real one adds
+its own.
 """
 
 import asyncio
