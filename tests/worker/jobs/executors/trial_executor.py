@@ -1,0 +1,149 @@
+"""An executor that does what the request's body says: sleep, crash, get stuck, and worse."""
+
+import ctypes
+import errno
+import os
+import signal
+import sys
+import time
+from pathlib import Path
+
+
+class _NoFileError(Exception):
+    """Ends a run with success and without a result."""
+
+
+class RefusedError(Exception):
+    def as_failure(self):
+        return {"code": "refused", "message": "no", "pointer": "/texture"}
+
+
+def warm(report):
+    report(0.5, "warming up")
+    return {"fingerprint": os.environ.get("TRIAL_FINGERPRINT", "trial")}
+
+
+def run(request, out, report):
+    body = request["body"]
+    if note := body.get("note_pid"):
+        with Path(note).open("a") as file:
+            file.write(f"{os.getpid()}\n")
+    try:
+        facts = _DO[body["do"]](body | {"request": request}, out, report) or {}
+    except _NoFileError:
+        return {}
+    if not out.exists():
+        out.write_bytes(b"result")
+    return facts | {"bytes": out.stat().st_size}
+
+
+def _nothing(body, out, report):
+    pass
+
+
+def _describe(body, out, report):
+    os.write(1, b"noise on stdout\n")
+    return {
+        "environment": {name: os.environ.get(name) for name in body["variables"]},
+        "loaded": sorted(
+            {name.partition(".")[0] for name in sys.modules}
+            & {"sqlalchemy", "alembic", "fastapi", "pytest", "numpy", "numba"}
+        ),
+        "oom_score_adj": int(Path("/proc/self/oom_score_adj").read_text()),
+        "stdout_is_stderr": os.fstat(1).st_ino == os.fstat(2).st_ino,
+        "request": {name: body["request"][name] for name in ("kind", "digest", "assets")},
+    }
+
+
+def _sleep(body, out, report):
+    end = time.monotonic() + body["seconds"]
+    while (left := end - time.monotonic()) > 0:
+        report(1 - left / body["seconds"], "sleeping")
+        time.sleep(min(left, 0.02))
+
+
+def _sleep_once(body, out, report):
+    """Slow the first time, quick when repeated."""
+    marker = Path(body["marker"])
+    if not marker.exists():
+        marker.touch()
+        time.sleep(60)
+
+
+def _stuck_once(body, out, report):
+    marker = Path(body["marker"])
+    if not marker.exists():
+        marker.touch()
+        _stuck(body, out, report)
+
+
+def _segfault(body, out, report):
+    out.write_bytes(b"half")
+    ctypes.string_at(0)
+
+
+def _stuck(body, out, report):
+    """In a native call that holds the interpreter's lock, deaf to all that can be blocked."""
+    out.write_bytes(b"half")
+    signal.pthread_sigmask(signal.SIG_BLOCK, range(1, 32))
+    ctypes.PyDLL(None).sleep(3600)
+
+
+def _refuse(body, out, report):
+    raise RefusedError
+
+
+def _stumble(body, out, report):
+    raise KeyError("/secret/path")
+
+
+def _exhaust(body, out, report):
+    raise MemoryError
+
+
+def _hog(body, out, report):
+    held = []
+    for _ in range(400):
+        held.append(b"\1" * (10 << 20))
+        time.sleep(0.005)
+
+
+def _fill_disk(body, out, report):
+    raise OSError(errno.ENOSPC, "No space left on device")
+
+
+def _no_file(body, out, report):
+    raise _NoFileError
+
+
+def _not_json(body, out, report):
+    return {"bad": float("nan")}
+
+
+def _flood(body, out, report):
+    for step in range(2000):
+        report(step / 2000, "flooding")
+
+
+def _write(body, out, report):
+    out.write_bytes(b"\7" * body["bytes"])
+
+
+_DO = {
+    "nothing": _nothing,
+    "describe": _describe,
+    "sleep": _sleep,
+    "sleep once": _sleep_once,
+    "stuck once": _stuck_once,
+    "segfault": _segfault,
+    "stuck": _stuck,
+    "refuse": _refuse,
+    "stumble": _stumble,
+    "exhaust": _exhaust,
+    "hog": _hog,
+    "fill disk": _fill_disk,
+    "no file": _no_file,
+    "not json": _not_json,
+    "flood": _flood,
+    "write": _write,
+}

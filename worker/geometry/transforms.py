@@ -1,0 +1,137 @@
+"""Matrices in float64: where things stand, and how the eye sees them.
+
+A matrix named a_from_b takes column vectors of frame b to frame a. The world is right-handed with
+y up; a camera looks along its own -z.
+"""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from api_schemas.camera import LookAt, OrthographicCamera, PerspectiveCamera
+from api_schemas.transforms import MatrixPlacement, Placement, Transform
+from worker.errors import RenderError
+
+Matrix = NDArray[np.float64]
+_PARALLEL = 1e-9  # the sine below which two directions are one; distances in a scene are >= 1e-6
+
+
+def parent_from_node(transform: Transform) -> Matrix:
+    """Turn a request's transform into a matrix: scale, then turn, then move, or its own matrix."""
+    if isinstance(transform, MatrixPlacement):
+        return np.array(transform.matrix, dtype=np.float64).reshape(4, 4).T
+    return _placed(transform)
+
+
+def _placed(placement: Placement) -> Matrix:
+    matrix = np.eye(4)
+    matrix[:3, :3] = rotation(placement.rotation) * np.array(placement.scale)
+    matrix[:3, 3] = placement.translation
+    return matrix
+
+
+def rotation(quaternion: Sequence[float]) -> Matrix:
+    """Turn a quaternion x, y, z, w of any length but zero into a 3 x 3 rotation.
+
+    Raises:
+        RenderError: The quaternion has no length (`transform_singular`).
+    """
+    length = math.hypot(*quaternion)
+    if length == 0:
+        raise RenderError("rotation is the zero quaternion", code="transform_singular")
+    x, y, z, w = (component / length for component in quaternion)
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+        ]
+    )
+
+
+def world_from_camera(pose: LookAt | MatrixPlacement) -> Matrix:
+    """Give the camera's frame: its columns are right, up, backward and the eye.
+
+    A matrix may turn and move but its scale is taken out, so that distances stay distances.
+
+    Raises:
+        RenderError: Eye and target are equal, up points along the view, or the matrix is singular
+            (`camera_degenerate`).
+    """
+    if isinstance(pose, MatrixPlacement):
+        return _orthonormal(parent_from_node(pose))
+    eye, target, up = (np.array(v, dtype=np.float64) for v in (pose.eye, pose.target, pose.up))
+    backward = _unit(eye - target, "the camera's eye and target are one point")
+    upward = _unit(up, "the camera's up vector has no length")
+    right = _unit(np.cross(upward, backward), "the camera looks along its up vector")
+    matrix = np.eye(4)
+    matrix[:3, :4] = np.stack([right, np.cross(backward, right), backward, eye], axis=1)
+    return matrix
+
+
+def _orthonormal(matrix: Matrix) -> Matrix:
+    backward = _unit(matrix[:3, 2], "the camera's matrix is singular")
+    upward = _unit(matrix[:3, 1], "the camera's matrix is singular")
+    right = _unit(np.cross(upward, backward), "the camera's matrix is singular")
+    result = np.eye(4)
+    result[:3, :4] = np.stack([right, np.cross(backward, right), backward, matrix[:3, 3]], axis=1)
+    return result
+
+
+def _unit(vector: NDArray[np.float64], complaint: str) -> NDArray[np.float64]:
+    length = np.linalg.norm(vector)
+    if not length > _PARALLEL:
+        raise RenderError(complaint, code="camera_degenerate")
+    return vector / length
+
+
+def rigid_inverse(matrix: Matrix) -> Matrix:
+    """Invert a matrix that only turns and moves."""
+    inverse = np.eye(4)
+    inverse[:3, :3] = matrix[:3, :3].T
+    inverse[:3, 3] = -matrix[:3, :3].T @ matrix[:3, 3]
+    return inverse
+
+
+def clip_from_camera(camera: PerspectiveCamera | OrthographicCamera, aspect: float) -> Matrix:
+    """Project to clip space with reversed depth: 1 at the near plane, 0 at the far plane.
+
+    Reversed depth spends the float's precision evenly over the scene (Reed, 2015).
+
+    Args:
+        camera: The projection's angles and distances.
+        aspect: Width over height of the picture.
+
+    Raises:
+        RenderError: far is not beyond near (`camera_degenerate`).
+    """
+    near, far = camera.near, camera.far
+    if not far > near:
+        raise RenderError(
+            f"far is {far:g}; it must be more than near, {near:g}", code="camera_degenerate"
+        )
+    matrix = np.zeros((4, 4))
+    if isinstance(camera, PerspectiveCamera):
+        focal = 1 / math.tan(camera.fov_y / 2)
+        matrix[0, 0], matrix[1, 1] = focal / aspect, focal
+        matrix[2, 2], matrix[2, 3] = near / (far - near), near * far / (far - near)
+        matrix[3, 2] = -1.0
+    else:
+        matrix[0, 0], matrix[1, 1] = 2 / (camera.height * aspect), 2 / camera.height
+        matrix[2, 2], matrix[2, 3] = 1 / (far - near), far / (far - near)
+        matrix[3, 3] = 1.0
+    return matrix
+
+
+def normal_matrix(world_from_object: Matrix) -> Matrix:
+    """Give the 3 x 3 matrix that keeps normals outward: the cofactors, signed by the determinant.
+
+    It equals the inverse transpose up to a positive factor and exists for flat scales too.
+    """
+    m = world_from_object[:3, :3]
+    cofactors = np.stack([np.cross(m[1], m[2]), np.cross(m[2], m[0]), np.cross(m[0], m[1])])
+    largest = np.abs(cofactors).max()
+    flip = -1.0 if np.linalg.det(m) < 0 else 1.0
+    return cofactors * (flip / largest) if largest > 0 else np.eye(3)

@@ -1,0 +1,125 @@
+"""What tenants uploaded: each content is stored once, and each tenant sees only its own uploads."""
+
+import re
+import time
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final
+
+from sqlalchemy import Connection, String, cast, delete, insert, select
+
+from worker.jobs.database import Database
+from worker.jobs.files import half_file, make_folder, publish, settle, sweep_halves
+from worker.jobs.schema import assets, work
+
+SHA256: Final = re.compile(r"\b[0-9a-f]{64}\b")
+
+
+@dataclass(frozen=True, slots=True)
+class Asset:
+    """An upload; `facts` is what measuring it found, `created` seconds since 1970."""
+
+    sha256: str
+    facts: dict[str, Any]
+    bytes: int
+    created: float
+
+
+class Assets:
+    """The uploads of all tenants, in `folder/<first two digits>/<sha256>`."""
+
+    def __init__(self, folder: Path, database: Database) -> None:
+        self._folder = make_folder(folder)
+        self._database = database
+
+    @property
+    def folder(self) -> Path:
+        """Where executors find them."""
+        return self._folder
+
+    def sweep(self) -> None:
+        """Remove half uploads, and files that no tenant has any more."""
+        sweep_halves(self._folder)
+        self.drop_unwanted(path.name for path in self._folder.glob("??/*"))
+
+    def new_upload(self) -> Path:
+        """A path to write an upload to; swept if it is never put, and the caller's to remove."""
+        return half_file(self._folder)
+
+    def put(self, tenant: str, upload: Path, sha256: str, facts: dict[str, Any]) -> Asset:
+        """Take a file over, whose sha256 the caller has computed, as an asset of the tenant.
+
+        Raises:
+            StorageFullError: the disk is full; the tenant does not have the asset.
+        """
+        settle(upload)
+        asset = Asset(sha256, facts, upload.stat().st_size, time.time())
+        path = self._path(sha256)
+        with self._database.writing() as connection:
+            owned = self._owned(connection, tenant, sha256)
+            if path.is_file():
+                upload.unlink()
+            else:
+                make_folder(path.parent)
+                publish(upload, path)
+            if owned is not None:
+                return owned
+            connection.execute(
+                insert(assets).values(
+                    tenant=tenant,
+                    sha256=sha256,
+                    facts=facts,
+                    bytes=asset.bytes,
+                    created=asset.created,
+                )
+            )
+        return asset
+
+    def get(self, tenant: str, sha256: str) -> Asset | None:
+        """One asset of the tenant."""
+        with self._database.reading() as connection:
+            asset = self._owned(connection, tenant, sha256)
+        return asset if asset is not None and self._path(sha256).is_file() else None
+
+    def path(self, tenant: str, sha256: str) -> Path | None:
+        """The file of one asset of the tenant."""
+        return None if self.get(tenant, sha256) is None else self._path(sha256)
+
+    def delete(self, tenant: str, sha256: str) -> bool:
+        """Take an asset from the tenant; False if it was not there."""
+        is_this = (assets.c.tenant == tenant, assets.c.sha256 == sha256)
+        with self._database.writing() as connection:
+            deleted = connection.execute(delete(assets).where(*is_this)).rowcount
+        self.drop_unwanted([sha256])
+        return deleted == 1
+
+    def drop_unwanted(self, candidates: Iterable[str]) -> None:
+        """Remove those files that no tenant has and no work under way may read."""
+        for sha256 in candidates:
+            path = self._path(sha256)
+            if path.is_file():
+                with self._database.writing() as connection:
+                    if not _is_wanted(connection, sha256):
+                        path.unlink(missing_ok=True)
+
+    def _path(self, sha256: str) -> Path:
+        return self._folder / sha256[:2] / sha256
+
+    def _owned(self, connection: Connection, tenant: str, sha256: str) -> Asset | None:
+        query = select(assets).where(assets.c.tenant == tenant, assets.c.sha256 == sha256)
+        row = connection.execute(query).first()
+        return None if row is None else Asset(row.sha256, row.facts, row.bytes, row.created)
+
+
+def mentioned_in(body: dict[str, Any]) -> set[str]:
+    """Everything in a request that may name an asset."""
+    return set(SHA256.findall(str(body)))
+
+
+def _is_wanted(connection: Connection, sha256: str) -> bool:
+    owner = select(assets.c.tenant).where(assets.c.sha256 == sha256)
+    reader = select(work.c.id).where(
+        work.c.state.in_(("queued", "running")), cast(work.c.body, String).contains(sha256)
+    )
+    return any(connection.execute(query.limit(1)).first() is not None for query in (owner, reader))

@@ -1,0 +1,61 @@
+"""What the job engine refuses, and why.
+
+JobsError
+├── QueueFullError        too much is waiting; carries the seconds after which to try again
+├── DrainingError         the engine is stopping and takes nothing new
+├── StorageFullError      the disk that holds the data folder is full
+├── DataFolderInUseError  another service owns the data folder
+├── SlotError             a child could not be started or warmed
+└── MeasuringError        an upload cannot be used; carries the failure as data
+"""
+
+from typing import TypedDict
+
+
+class Failure(TypedDict):
+    """Why something did not succeed, in the form in which it crosses processes."""
+
+    code: str
+    message: str
+    pointer: str | None
+
+
+def failure(code: str, message: str) -> Failure:
+    """A failure that no part of the request is to blame for."""
+    return {"code": code, "message": message, "pointer": None}
+
+
+class JobsError(Exception):
+    """Anything the job engine refuses."""
+
+
+class QueueFullError(JobsError):
+    """The queue holds as much as it may."""
+
+    def __init__(self, waiting: int, retry_after_seconds: int) -> None:
+        super().__init__(f"{waiting} jobs are waiting already")
+        self.retry_after_seconds = retry_after_seconds
+
+
+class DrainingError(JobsError):
+    """The engine is stopping."""
+
+
+class StorageFullError(JobsError):
+    """There is no room left for records or files."""
+
+
+class DataFolderInUseError(JobsError):
+    """One service per data folder; another one holds its lock."""
+
+
+class SlotError(JobsError):
+    """A child could not be started, or its executor could not be warmed."""
+
+
+class MeasuringError(JobsError):
+    """An upload could not be measured; `failure` says why."""
+
+    def __init__(self, failure: Failure) -> None:
+        super().__init__(failure["message"])
+        self.failure = failure

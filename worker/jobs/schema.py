@@ -1,0 +1,81 @@
+"""The tables. The migrations build them; a test holds the two together.
+
+A job is one caller's request; the work behind it is shared by all jobs of one tenant and digest, so
+that nobody's cancellation takes away what somebody else waits for.
+"""
+
+from sqlalchemy import (
+    JSON,
+    Column,
+    Float,
+    ForeignKey,
+    Index,
+    Integer,
+    MetaData,
+    String,
+    Table,
+    text,
+)
+
+metadata = MetaData()
+
+work = Table(
+    "work",
+    metadata,
+    Column("sequence", Integer, primary_key=True),  # first come, first served
+    Column("id", String(32), nullable=False),
+    Column("tenant", String(64), nullable=False),
+    Column("digest", String(64), nullable=False),
+    Column("kind", String(32), nullable=False),
+    Column("body", JSON, nullable=False),
+    Column("priority", Integer, nullable=False),  # that of its most urgent job: 0 goes first
+    Column("time_limit_seconds", Float, nullable=False),
+    Column("state", String(16), nullable=False),
+    Column("attempt", Integer, nullable=False),  # counts claims; a result of another one is refused
+    Column("crashes", Integer, nullable=False),
+    Column("progress", Float, nullable=False),
+    Column("stage", String(64)),
+    Column("facts", JSON(none_as_null=True)),
+    Column("failure", JSON(none_as_null=True)),
+    Column("fingerprint", String(128)),
+    Column("created", Float, nullable=False),
+    Column("started", Float),
+    Column("finished", Float),
+    Index("work_by_id", "id", unique=True),
+    Index("work_in_line", "state", "priority", "sequence"),
+    Index("work_by_digest", "tenant", "digest"),
+    Index(
+        "work_in_single_flight",
+        "tenant",
+        "digest",
+        unique=True,
+        sqlite_where=text("state IN ('queued', 'running')"),
+        postgresql_where=text("state IN ('queued', 'running')"),
+    ),
+)
+
+jobs = Table(
+    "jobs",
+    metadata,
+    Column("sequence", Integer, primary_key=True),
+    Column("id", String(32), nullable=False),
+    Column("tenant", String(64), nullable=False),
+    Column("work_id", String(32), ForeignKey("work.id"), nullable=False),
+    Column("priority", Integer, nullable=False),
+    Column("created", Float, nullable=False),
+    Column("cancelled", Float),
+    Index("jobs_by_id", "id", unique=True),
+    Index("jobs_of_tenant", "tenant", "sequence"),
+    Index("jobs_of_work", "work_id"),
+)
+
+assets = Table(
+    "assets",
+    metadata,
+    Column("tenant", String(64), primary_key=True),
+    Column("sha256", String(64), primary_key=True),
+    Column("facts", JSON, nullable=False),
+    Column("bytes", Integer, nullable=False),
+    Column("created", Float, nullable=False),
+    Index("assets_by_sha256", "sha256"),
+)

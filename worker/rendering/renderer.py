@@ -1,0 +1,104 @@
+"""Draw a request's scene: build, tile by tile, resolved to one float picture."""
+
+import functools
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from api_schemas.output import RenderOutput
+from api_schemas.scene import Scene
+from worker.images.image import Image
+from worker.rendering.gl_context import GLContext
+from worker.rendering.lighting import light_uniforms
+from worker.rendering.pyrender_adapter import FloatRenderer, pyrender_scene
+from worker.rendering.scene_builder import SceneBuilder, TextureMaker
+from worker.rendering.targets import TargetPair
+from worker.rendering.tiles import pixels_per_tile, tile_from_picture, tiles
+
+Report = Callable[[float, str], None]
+
+
+@dataclass(frozen=True, slots=True)
+class Rendering:
+    """A picture and what it cost.
+
+    Attributes:
+        image: float32 (height, width, 4), linear, alpha premultiplied; 0 where nothing is.
+        timings: Milliseconds: draw_ms, and jit_ms for linking programs and their first draws.
+        counts: triangles and texels.
+    """
+
+    image: Image
+    timings: dict[str, float]
+    counts: dict[str, int]
+
+
+class _Engine:
+    """The context of this process and what lives in it."""
+
+    def __init__(self) -> None:
+        self.context = GLContext.open()
+        self.renderer = FloatRenderer(self.context)
+        self.targets = TargetPair()
+        self.builder = SceneBuilder()
+
+
+@functools.cache
+def _engine() -> _Engine:
+    return _Engine()
+
+
+def render(scene: Scene, output: RenderOutput, textures: TextureMaker, report: Report) -> Rendering:
+    """Draw a scene as linear light.
+
+    Always call it from the same thread; the first call opens the process's OpenGL context.
+
+    Args:
+        scene: What to draw.
+        output: Its size and supersampling count here; the file is not this function's business.
+        textures: Makes the picture of a texture, read as "colour" or "data".
+        report: Called with the finished part, 0..1, and the stage's name.
+
+    Raises:
+        WorkerError: The scene cannot be drawn.
+    """
+    engine = _engine()
+    engine.context.check_thread()
+    width, height = output.size
+    report(0.0, "build")
+    built = engine.builder.build(scene, width / height, textures)
+    lights = light_uniforms(scene.lights, built.view.world_from_camera[:3, 3])
+    drawn = pyrender_scene(built.drawables, built.view)
+    pixels = np.empty((height, width, 4), dtype=np.float32)
+    start, jit_before = time.perf_counter(), engine.renderer.jit_seconds
+    side = pixels_per_tile(output.supersampling)
+    target = engine.targets.fit(min(width, side), min(height, side), output.supersampling)
+    parts = list(tiles(width, height, output.supersampling))
+    for done, tile in enumerate(parts):
+        report(done / len(parts), "draw")
+        samples = (tile.width * output.supersampling, tile.height * output.supersampling)
+        engine.renderer.draw(
+            drawn, built.view, lights, target, tile_from_picture(tile, width, height), samples
+        )
+        top = height - tile.bottom - tile.height
+        engine.targets.resolve(
+            output.supersampling,
+            pixels[top : top + tile.height, tile.left : tile.left + tile.width],
+        )
+    engine.context.check("resolving")
+    jit = engine.renderer.jit_seconds - jit_before
+    timings = {
+        "draw_ms": round((time.perf_counter() - start - jit) * 1000, 3),
+        "jit_ms": round(jit * 1000, 3),
+    }
+    counts = {"triangles": built.triangles, "texels": built.texels}
+    engine.builder.trim()
+    report(1.0, "draw")
+    return Rendering(Image(pixels, "colour"), timings, counts)
+
+
+def fingerprint() -> str:
+    """Name the OpenGL implementation that decides the pixels."""
+    return _engine().context.fingerprint()

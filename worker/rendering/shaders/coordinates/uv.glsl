@@ -1,0 +1,16 @@
+#include "lib/footprint.glsl"
+#include "lib/surface_point.glsl"
+
+// The coordinates that come with the mesh, interpolated perspective-correctly. uv / w and 1 / w are
+// linear on the screen, so that their differences between pixels are derivatives, and the quotient
+// rule gives those of uv at this very pixel (Heckbert 1989); a plain difference of uv would be one
+// between two pixels.
+Footprint coordinates_uv(SurfacePoint point) {
+    float inverse_w = gl_FragCoord.w;
+    vec2 scaled = point.uv * inverse_w;
+    return Footprint(
+        point.uv,
+        (dFdx(scaled) - point.uv * dFdx(inverse_w)) / inverse_w,
+        (dFdy(scaled) - point.uv * dFdy(inverse_w)) / inverse_w
+    );
+}

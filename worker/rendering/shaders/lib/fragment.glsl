@@ -1,0 +1,18 @@
+#include "lib/surface_point.glsl"
+in vec3 vertex_position;
+in vec3 vertex_normal;
+in vec2 vertex_uv;
+uniform vec4 eye;           // (0, 0, 0, 1), or the direction towards an orthographic camera and 0
+uniform bool front_is_ccw;  // false where a mirrored transform turns the winding
+layout(location = 0) out vec4 color;
+
+// Both sides of a surface are lit: the normal is turned to the side that is seen.
+SurfacePoint surface_point() {
+    vec3 normal = normalize(vertex_normal);
+    return SurfacePoint(
+        vertex_position,
+        gl_FrontFacing == front_is_ccw ? normal : -normal,
+        normalize(eye.xyz - eye.w * vertex_position),
+        vertex_uv
+    );
+}

@@ -1,0 +1,42 @@
+#include "lib/lights.glsl"
+#include "lib/power.glsl"
+#include "lib/surface_point.glsl"
+
+struct Surface {
+    float ambient_weight;
+    vec3 ambient_color;
+    float diffuse_weight;
+    vec3 diffuse_color;
+    float specular_weight;
+    vec3 specular_color;
+    float exponent;
+    vec3 emission;
+    int normalization;  // 0 none, 1 energy
+};
+
+const float PI = 3.14159265;
+
+// L_out = emission + ka Ca La + sum_l [kd Cd max(0, n.l) + ks Cs max(0, r.v)^n] L_l (Phong 1975).
+// energy: kd / pi, and ks (n + 2) / (2 pi) with the extra n.l (Lafortune and Willems 1994).
+vec4 shade(SurfacePoint point, Surface surface) {
+    // precise: a mapped constant and a plain one must give the same bits in their two programs.
+    precise vec3 matt = surface.diffuse_weight * surface.diffuse_color;
+    precise vec3 gloss = surface.specular_weight * surface.specular_color;
+    if (surface.normalization == 1) {
+        matt /= PI;
+        gloss *= (surface.exponent + 2.0) / (2.0 * PI);
+    }
+    precise vec3 radiance =
+        surface.emission + surface.ambient_weight * surface.ambient_color * ambient_radiance;
+    for (int i = 0; i < light_count; i++) {
+        Light light = light_at(i, point.position);
+        float facing = dot(point.normal, light.direction);
+        if (facing <= 0.0) continue;
+        vec3 mirrored = 2.0 * facing * point.normal - light.direction;
+        float highlight = exact_power(clamp(dot(mirrored, point.view), 0.0, 1.0), surface.exponent);
+        if (surface.normalization == 1) highlight *= facing;
+        precise vec3 reflected = matt * facing + gloss * highlight;
+        radiance += reflected * light.irradiance;
+    }
+    return vec4(radiance, 1.0);
+}

@@ -1,0 +1,10 @@
+#include "lib/surface_point.glsl"
+
+struct Surface {
+    vec3 color;
+};
+
+// Shines by itself: L_out = color.
+vec4 shade(SurfacePoint point, Surface surface) {
+    return vec4(surface.color, 1.0);
+}

@@ -1,0 +1,219 @@
+"""From a surface of the language to what its program needs: a layout, uniforms and textures.
+
+The layout decides the program; numbers, transforms and channels are uniforms and do not.
+"""
+
+import json
+import math
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Protocol, get_args
+
+import numpy as np
+
+from api_schemas.families import SurfaceSpec, TextureSpec
+from api_schemas.maps import ColorMap, Filter, Map, NumberMap, TextureTransform
+from worker.errors import RenderError
+from worker.images.image import Meaning
+from worker.rendering.chunks import chunk
+from worker.rendering.samplers import Sampling
+from worker.rendering.textures import Texture, TextureFormat
+
+MOST_PICTURES = 24
+_STRUCT = re.compile(r"^struct Surface \{(?P<fields>.*?)^\};", re.MULTILINE | re.DOTALL)
+_FIELD = re.compile(r"^ +(?P<type>float|vec3|int) (?P<name>\w+);", re.MULTILINE)
+_MEANINGS: dict[str, Meaning] = {"vec3": "colour", "float": "data"}
+
+
+class TextureSource(Protocol):
+    """Where uploaded textures come from."""
+
+    def __call__(self, spec: TextureSpec, meaning: Meaning, *, levels: bool) -> Texture:
+        """Return the texture of a spec, with its mip levels if asked for."""
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """One field of a surface. `lookup` is the index of the lookup it is read from, if mapped."""
+
+    name: str
+    type: str
+    lookup: int | None
+
+
+@dataclass(frozen=True, slots=True)
+class LookupLayout:
+    """One reading of a picture; parameters that share a lookup cost one."""
+
+    coordinates: str
+    filter: Filter
+    picture: int
+
+
+@dataclass(frozen=True, slots=True)
+class PictureLayout:
+    """A texture unit: how it is read, and what the JIT knows about the texture."""
+
+    sampling: Sampling
+    format: TextureFormat
+
+
+@dataclass(frozen=True, slots=True)
+class ShadingLayout:
+    """What decides a program; equal layouts share a program object."""
+
+    technique: str
+    parameters: tuple[Parameter, ...]
+    lookups: tuple[LookupLayout, ...]
+    pictures: tuple[PictureLayout, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """A texture bound to a unit, with the value beyond its border."""
+
+    texture: Texture
+    sampling: Sampling
+    border: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Shading:
+    """A surface ready to draw."""
+
+    layout: ShadingLayout
+    uniforms: dict[str, Any]
+    pictures: tuple[Picture, ...]
+
+
+def surface_fields(technique: str) -> dict[str, str]:
+    """Return name and GLSL type of each field in the technique's struct Surface.
+
+    Raises:
+        RenderError: The technique has no chunk, or its chunk no such struct.
+    """
+    try:
+        struct = _STRUCT.search(chunk(f"surfaces/{technique}.glsl"))
+    except FileNotFoundError:
+        struct = None
+    if struct is None:
+        raise RenderError(f"surface technique {technique} has no chunk with a struct Surface")
+    return {field["name"]: field["type"] for field in _FIELD.finditer(struct["fields"])}
+
+
+def shade(surface: SurfaceSpec, texture_of: TextureSource) -> Shading:
+    """Lay out a surface's parameters: plain values as uniforms, maps as lookups in pictures.
+
+    Raises:
+        RenderError: More than 24 different pictures.
+    """
+    plan = _Plan(texture_of)
+    parameters = tuple(
+        plan.parameter(surface, name, kind)
+        for name, kind in surface_fields(surface.technique).items()
+    )
+    pictures = tuple(plan.pictures)
+    if len(pictures) > MOST_PICTURES:
+        raise RenderError(
+            f"the surface reads {len(pictures)} different pictures; {MOST_PICTURES} is the most",
+            code="over_budget",
+        )
+    layout = ShadingLayout(
+        technique=surface.technique,
+        parameters=parameters,
+        lookups=tuple(lookup.layout for lookup in plan.lookups),
+        pictures=tuple(
+            PictureLayout(picture.sampling, picture.texture.format) for picture in pictures
+        ),
+    )
+    return Shading(layout, plan.all_uniforms(), pictures)
+
+
+@dataclass(frozen=True, slots=True)
+class _Lookup:
+    layout: LookupLayout
+    transform: TextureTransform
+
+
+class _Plan:
+    """Collects lookups and pictures, each once."""
+
+    def __init__(self, texture_of: TextureSource) -> None:
+        self._texture_of = texture_of
+        self._uniforms: dict[str, Any] = {}
+        self._found: dict[str, int] = {}
+        self.lookups: list[_Lookup] = []
+        self.pictures: list[Picture] = []
+
+    def parameter(self, surface: SurfaceSpec, name: str, kind: str) -> Parameter:
+        value = getattr(surface, name)
+        if not isinstance(value, Map):
+            self._uniforms[name + "_value"] = _plain(surface, name, kind, value)
+            return Parameter(name, kind, None)
+        self._uniforms[name + "_scale_bias"] = (value.scale, value.bias)
+        if isinstance(value, NumberMap):
+            self._uniforms[name + "_channel"] = "rgba".index(value.channel)
+        return Parameter(name, kind, self._lookup(value, _MEANINGS[kind]))
+
+    def _lookup(self, mapped: Map, meaning: Meaning) -> int:
+        assert isinstance(mapped, ColorMap | NumberMap)
+        picture = self._picture(mapped, mapped.texture, meaning)
+        layout = LookupLayout(mapped.coordinates.technique, mapped.filter, picture)
+        key = json.dumps(
+            [picture, mapped.filter, mapped.coordinates.model_dump(), mapped.transform.model_dump()]
+        )
+        if key not in self._found:
+            self._found[key] = len(self.lookups)
+            self.lookups.append(_Lookup(layout, mapped.transform))
+        return self._found[key]
+
+    def _picture(self, mapped: Map, spec: TextureSpec, meaning: Meaning) -> int:
+        u, v = mapped.wrap
+        sampling = Sampling.of((u, v), mapped.filter)
+        border = tuple(mapped.border_color) if "border" in (u, v) else (0.0,) * 4
+        texture = self._texture_of(spec, meaning, levels=sampling.levels)
+        picture = Picture(texture, sampling, border)
+        if picture not in self.pictures:
+            self.pictures.append(picture)
+        return self.pictures.index(picture)
+
+    def all_uniforms(self) -> dict[str, Any]:
+        """Return the parameters' uniforms and the lookups' arrays."""
+        if not self.lookups:
+            return self._uniforms
+        pictures = [self.pictures[lookup.layout.picture] for lookup in self.lookups]
+        periods = [picture.sampling.period for picture in pictures]
+        return self._uniforms | {
+            "lookup_transform": np.array(
+                [
+                    texture_from_uv(lookup.transform, period[:2])
+                    for lookup, period in zip(self.lookups, periods, strict=True)
+                ]
+            ),
+            "lookup_period": np.array(periods),
+            "lookup_size": np.array([(p.texture.width, p.texture.height) for p in pictures]),
+        }
+
+
+def texture_from_uv(transform: TextureTransform, period: Sequence[float]) -> np.ndarray:
+    """Give the 3 x 3 matrix that scales, then turns, then shifts texture coordinates.
+
+    The shift is brought into the wrap's period here, in float64, where whole tiles cost no bits.
+    """
+    cosine, sine = math.cos(transform.rotation), math.sin(transform.rotation)
+    turn = np.array([[cosine, -sine], [sine, cosine]])
+    matrix = np.eye(3)
+    matrix[:2, :2] = turn * np.array(transform.scale)
+    matrix[:2, 2] = [
+        shift - length * math.floor(shift / length) if length else shift
+        for shift, length in zip(transform.offset, period, strict=True)
+    ]
+    return matrix
+
+
+def _plain(surface: SurfaceSpec, name: str, kind: str, value: Any) -> Any:
+    """Numbers and colours are themselves; a choice among words is its place in the Literal."""
+    if kind != "int" or isinstance(value, int):
+        return value
+    return get_args(type(surface).model_fields[name].annotation).index(value)
