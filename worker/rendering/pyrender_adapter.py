@@ -220,7 +220,7 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         GL.glDepthFunc(GL.GL_GREATER)
         GL.glClearDepth(0.0)
         GL.glDisable(GL.GL_BLEND)
-        GL.glDisable(GL.GL_CULL_FACE)
+        GL.glEnable(GL.GL_CULL_FACE)
 
     def _get_camera_matrices(self, scene: Any) -> tuple[Matrix, Matrix]:
         assert self._frame is not None
@@ -258,7 +258,6 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         program.set("clip_from_object", frame.clip_from_world @ pose)
         program.set("eye_from_object", frame.eye_from_world @ pose)
         program.set("normal_from_object", normal_matrix(pose))
-        program.set("front_is_ccw", np.linalg.det(pose[:3, :3]) >= 0)
         shading: Shading = primitive.material.shading
         for name, value in shading.uniforms.items():
             program.set(name, value)
@@ -269,9 +268,15 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
             program.set(f"picture_{unit}", unit)
         start = time.perf_counter()
         primitive._bind()
-        GL.glDrawElementsInstanced(
-            GL.GL_TRIANGLES, primitive.indices.size, GL.GL_UNSIGNED_INT, None, 1
-        )
+        # A mirrored transform turns the winding, but not which side is the outer one.
+        mirrored = np.linalg.det(pose[:3, :3]) < 0
+        GL.glFrontFace(GL.GL_CW if mirrored else GL.GL_CCW)
+        # Outer sides first: the depth test then spares the shading of inner sides behind them.
+        for hidden in (GL.GL_BACK, GL.GL_FRONT):
+            GL.glCullFace(hidden)
+            GL.glDrawElements(
+                GL.GL_TRIANGLES, primitive.indices.size, GL.GL_UNSIGNED_INT, None
+            )
         primitive._unbind()
         if not program.drawn:
             program.drawn = True
