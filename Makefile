@@ -22,7 +22,7 @@ run: ## serve on 127.0.0.1:8000; HOST=.. PORT=.. DATA=.. change address and data
 	docker/install.sh warm && exec $(python) -m service
 
 test: installed ## the tests that need no corpus and no fuzzing: under ten minutes on two cores
-	@$(gl); $(pytest) -m 'not corpus and not contract'
+	@$(gl); TEXLOOM_DATA=.cache docker/install.sh warm && $(pytest) -m 'not corpus and not contract'
 
 # One more session: what `make test` left out, and the OpenGL tests on the other platform.
 test-all: test ## that, the corpus, the other OpenGL platform and the contract fuzzing

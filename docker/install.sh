@@ -43,7 +43,7 @@ choose_python() {
 
 listed_packages() { sed 's/#.*//' docker/system-packages.txt | awk 'NF {print $1}'; }
 installed() { [[ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" == installed ]]; }
-apt_has() { LC_ALL=C apt-cache policy "$1" 2>/dev/null | grep -q 'Candidate: [^(]'; }
+apt_has() { [[ "$(LC_ALL=C apt-cache policy "$1" 2>/dev/null)" =~ 'Candidate: '[^\(] ]]; }
 apt_has_lists() { compgen -G '/var/lib/apt/lists/*_Packages*' >/dev/null; }
 
 # A fresh machine may still be busy with its own upgrades: wait for it.
@@ -90,7 +90,7 @@ install_system_packages() {
     fi
   done
   [[ ${#obtainable[@]} -gt 0 ]] || return 0
-  say "installing ${obtainable[*]} (about 200 MB on a bare machine)"
+  say "installing ${obtainable[*]} (about 250 MB on a bare machine)"
   as_root env DEBIAN_FRONTEND=noninteractive \
     apt-get "${apt_options[@]}" install -y --no-install-recommends "${obtainable[@]}" >&2 ||
     fail "apt-get could not install ${obtainable[*]}: see above, then run make again."

@@ -55,19 +55,19 @@ def compare(
     golden = GOLDEN / f"{name}.exr"
     if not golden.exists():
         if not bless_missing:
-            write_exr(actual, FAILURES / name / "actual.exr")
+            _write_exr(actual, FAILURES / name / "actual.exr")
             pytest.fail(
                 f"There is no golden picture {golden}. Look at {FAILURES / name / 'actual.exr'}; "
                 "if it is right, run this test with --bless-missing and commit the file.",
                 pytrace=False,
             )
-        write_exr(actual, golden)
+        _write_exr(actual, golden)
         return
 
-    expected = read_exr(golden, actual.meaning)
+    expected = image_io.read(golden, "linear", actual.meaning)
     complaint = find_difference(actual.pixels, expected.pixels, thresholds)
     if complaint:
-        leave_evidence(actual, expected, FAILURES / name)
+        _leave_evidence(actual, expected, FAILURES / name)
         pytest.fail(f"{name}: {complaint}. See {FAILURES / name}.", pytrace=False)
 
 
@@ -96,3 +96,27 @@ def pixel_errors(actual: Pixels, expected: Pixels) -> NDArray[np.float64]:
     wide = expected.astype(np.float64)
     error: NDArray[np.float64] = np.abs(actual - wide) / np.maximum(1.0, np.abs(wide))
     return error.max(axis=2)
+
+
+def _leave_evidence(actual: Image, expected: Image, folder: Path) -> None:
+    """Write the pictures as EXR for measuring and as PNG for the eye."""
+    evidence = {"actual": actual, "expected": expected}
+    if actual.pixels.shape == expected.pixels.shape:
+        off = pixel_errors(actual.pixels, expected.pixels).astype(np.float32)
+        evidence["difference"] = Image(off[..., np.newaxis], "data")
+    for name, image in evidence.items():
+        _write_exr(image, folder / f"{name}.exr")
+        visible = image
+        if name == "difference" and image.pixels.max() > 0:
+            visible = Image(image.pixels / image.pixels.max(), "data")
+        image_io.encode_png(
+            visible,
+            folder / f"{name}.png",
+            bits=8,
+            transfer="srgb" if visible.meaning == "colour" else "linear",
+        )
+
+
+def _write_exr(image: Image, path: Path) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    image_io.encode_exr({"": image}, path, pixel_type="float", digest="", version="")

@@ -1,21 +1,22 @@
 """The house rules that no linter checks."""
 
-import json
 import re
 import subprocess
 import sys
 import tomllib
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 from api_schemas.language import FAMILIES
+from api_schemas.requests import REQUESTS
+from api_schemas.walk import parts
+from tests.examples import examples
 
 ROOT = Path(__file__).resolve().parent.parent
 MOST_LINES = 300
 
-# Where a technique's other parts lie; one that every family member needs is named by the technique.
+# Where the worker's part of a technique lies, by its name.
 IMPLEMENTATIONS = {
     "textures": "worker/synthesis/{}.py",
     "surfaces": "worker/rendering/shaders/surfaces/{}.glsl",
@@ -23,18 +24,6 @@ IMPLEMENTATIONS = {
 }
 
 TECHNIQUES = [(family, name) for family, specs in FAMILIES.items() for name in specs]
-
-
-def techniques_in(value: object) -> Iterator[str]:
-    """Every technique that a request body names, however deep."""
-    if isinstance(value, dict):
-        if isinstance(technique := value.get("technique"), str):
-            yield technique
-        for inner in value.values():
-            yield from techniques_in(inner)
-    elif isinstance(value, list):
-        for inner in value:
-            yield from techniques_in(inner)
 
 
 def test_the_service_loads_no_native_code() -> None:
@@ -73,9 +62,10 @@ def test_a_technique_has_its_implementation(family: str, technique: str) -> None
 
 @pytest.mark.parametrize(("family", "technique"), TECHNIQUES)
 def test_a_technique_has_an_example_that_shows_it(family: str, technique: str) -> None:
-    examples = (ROOT / "api_schemas" / "examples").rglob("*.json")
+    """Written there or filled in: `uv` is where a map looks unless it says otherwise."""
+    requests = [REQUESTS[kind].model_validate(body) for kind, body in examples().values()]
 
-    assert any(technique in techniques_in(json.loads(path.read_text())) for path in examples)
+    assert any(isinstance(part, FAMILIES[family][technique]) for _, part in parts(requests))
 
 
 @pytest.mark.parametrize(("family", "technique"), TECHNIQUES)

@@ -58,3 +58,65 @@ def test_the_wheel_holds_every_file_of_the_packages(wheel: Path) -> None:
     packed = {name for name in zipfile.ZipFile(wheel).namelist() if ".dist-info/" not in name}
 
     assert packed == expected
+
+
+# As a service from the wheel does: the executor alone, on an example that came with the wheel.
+WORK = """
+import json, sys
+from pathlib import Path
+import api_schemas, worker
+from api_schemas.digest import digest
+from api_schemas.normalise import normalise
+from api_schemas.requests import REQUESTS
+from worker import run_job
+
+kind, example, target = sys.argv[1], sys.argv[2], Path(sys.argv[3])
+assert Path(worker.__file__).is_relative_to(target), worker.__file__
+body = json.loads((Path(api_schemas.__file__).parent / "examples" / example).read_text())
+body["output"] = {"size": [32, 32], "format": "png"}
+request = normalise(REQUESTS[kind].model_validate(body), "png", {})
+job = {
+    "kind": kind,
+    "body": request.model_dump(mode="json"),
+    "digest": digest(request),
+    "assets": str(Path.cwd()),
+}
+run_job.run(job, Path("picture.png"), lambda progress, stage: None)
+"""
+
+
+@pytest.mark.parametrize(
+    ("kind", "example"),
+    [
+        ("texture", "textures/perlin.json"),
+        pytest.param("render", "renders/soda_can.json", marks=pytest.mark.gl),
+    ],
+)
+def test_the_wheel_makes_pictures_in_an_empty_folder(
+    installed: Path, tmp_path: Path, kind: str, example: str
+) -> None:
+    run("-c", WORK, kind, example, installed, folder=tmp_path, python_path=installed)
+
+    assert (tmp_path / "picture.png").read_bytes().startswith(b"\x89PNG\r\n\x1a\n")
+
+
+def test_the_wheel_brings_its_database_up_to_date(installed: Path, tmp_path: Path) -> None:
+    program = """
+import sys
+from pathlib import Path
+from sqlalchemy import inspect
+import worker
+from worker.jobs.database import Database
+from worker.jobs.migrations import upgrade
+
+assert Path(worker.__file__).is_relative_to(sys.argv[1]), worker.__file__
+database = Database(Path("records.sqlite"))
+upgrade(database)
+with database.reading() as connection:
+    print(*inspect(connection).get_table_names())
+database.close()
+"""
+
+    tables = run("-c", program, installed, folder=tmp_path, python_path=installed)
+
+    assert {"jobs", "work", "assets"} <= set(tables.split())

@@ -1,8 +1,8 @@
 """Runs every bench_<name>.py of this folder and writes what it measured to RESULTS.md.
 
-A benchmark is a module whose docstring says what is measured and whose `measure()` returns rows,
-all with the same columns, as mappings from column to value. Each runs in a process of its own with
-the environment of the worker, so none inherits another's threads, caches or memory.
+A benchmark is a module whose docstring says what is measured and whose `measure()` returns rows:
+mappings from column to value, in general `work`, `figure`, `unit`, `note`. Each runs in a process
+of its own with the environment of the worker, so none inherits another's threads or memory.
 """
 
 import datetime
@@ -14,6 +14,8 @@ import sys
 from importlib.metadata import version
 from pathlib import Path
 
+from worker.jobs.environment import child_environment
+
 FOLDER = Path(__file__).resolve().parent
 ROOT = FOLDER.parent.parent
 PROGRAM = "import json, sys, importlib as i; m = i.import_module(sys.argv[1]); \
@@ -23,7 +25,10 @@ LIBRARIES = ("numpy", "numba", "scipy", "OpenImageIO", "pyrender-maintained")
 
 def main() -> None:
     """Measure everything, then write; a benchmark that fails leaves the old results in place."""
-    environment = os.environ | {"PYTHONPATH": str(ROOT)}
+    worker_environment = child_environment(
+        ROOT / ".cache", gl=os.environ.get("TEXLOOM_GL", "osmesa"), native_cpu=False
+    )
+    environment = os.environ | worker_environment | {"PYTHONPATH": str(ROOT)}
     sections = [machine_facts(environment)]
     for path in sorted(FOLDER.glob("bench_*.py")):
         print(f"bench: {path.stem}", flush=True)
@@ -45,14 +50,14 @@ def measured(name: str, environment: dict[str, str]) -> str:
         sys.exit(f"bench: {name} failed, see above")
     result = json.loads(finished.stdout.splitlines()[-1])
     heading, *rest = (result["title"] or name).strip().split("\n", 1)
-    return f"## {heading}\n{''.join(rest).rstrip()}\n\n{table(result['rows'])}"
+    return f"## {heading.rstrip('.')}\n{''.join(rest).rstrip()}\n\n{table(result['rows'])}"
 
 
 def table(rows: list[dict[str, object]]) -> str:
     """Draw rows as a Markdown table; numbers get three significant digits."""
-    columns = list(rows[0])
+    columns = list(dict.fromkeys(column for row in rows for column in row))
     lines = [columns, ["---"] * len(columns)]
-    lines += [[shown(row[column]) for column in columns] for row in rows]
+    lines += [[shown(row.get(column, "")) for column in columns] for row in rows]
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
 

@@ -3,6 +3,7 @@
 import os
 import signal
 import time
+from pathlib import Path
 
 import pytest
 
@@ -38,7 +39,7 @@ def wait_for(client, job, states, seconds=120):
 def gone(pids, seconds=5):
     deadline = time.monotonic() + seconds
     while time.monotonic() < deadline:
-        if not any(os.path.exists(f"/proc/{pid}/exe") for pid in pids):
+        if not any(Path(f"/proc/{pid}/exe").exists() for pid in pids):
             return True
         time.sleep(0.02)
     return False
@@ -46,8 +47,7 @@ def gone(pids, seconds=5):
 
 def busiest(pids):
     def used(pid):
-        with open(f"/proc/{pid}/stat") as stat:
-            fields = stat.read().rpartition(")")[2].split()
+        fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
         return int(fields[11]) + int(fields[12])
 
     before = {pid: used(pid) for pid in pids}

@@ -10,7 +10,7 @@ from pydantic import TypeAdapter
 from api_schemas.language import FAMILIES, Texture
 from tests.spec_strategies import ASSET, bodies
 from worker.images.image import Image
-from worker.synthesis.evaluate import evaluate
+from worker.synthesis import synthesize
 
 SIZE = (16, 16)
 TEXTURES = sorted(FAMILIES["textures"])
@@ -36,8 +36,8 @@ def test_any_valid_spec_runs_is_finite_deterministic_and_leaves_its_spec_alone(n
     def holds(spec):
         before = copy.deepcopy(spec)
 
-        image = evaluate(spec, SIZE, picture)
-        again = evaluate(spec, SIZE, picture)
+        image = synthesize(spec, SIZE, picture)
+        again = synthesize(spec, SIZE, picture)
 
         assert image.pixels.shape[:2] == SIZE[::-1]
         assert image.pixels.dtype == np.float32

@@ -49,27 +49,29 @@ def linear_from_srgb(encoded: NDArray[Float]) -> NDArray[Float]:
 
 def luminance(colour: NDArray[np.float32]) -> NDArray[np.float32]:
     """Weigh red, green and blue, shape (..., 3 or more), to luminance, shape (...)."""
-    weights = np.array(LUMINANCE_WEIGHTS, np.float32)
-    return np.asarray(colour[..., :3] @ weights, np.float32)
+    red, green, blue = (np.float32(weight) for weight in LUMINANCE_WEIGHTS)
+    weighed = red * colour[..., 0] + green * colour[..., 1] + blue * colour[..., 2]
+    return np.asarray(weighed, np.float32)
 
 
 def premultiply(straight: NDArray[np.float32]) -> NDArray[np.float32]:
     """Multiply all channels but the last, shape (..., C), by the last, which is alpha."""
     premultiplied = straight.copy()
-    premultiplied[..., :-1] *= straight[..., -1:]
+    alpha = straight[..., -1]
+    # Channel by channel: numpy's inner loop then runs over texels, not over three numbers.
+    for channel in range(straight.shape[-1] - 1):
+        premultiplied[..., channel] *= alpha
     return premultiplied
 
 
 def unpremultiply(premultiplied: NDArray[np.float32]) -> NDArray[np.float32]:
     """Divide all channels but the last, shape (..., C), by the last; alpha 0 gives colour 0."""
-    straight = premultiplied.copy()
+    straight = np.zeros_like(premultiplied)
     alpha = premultiplied[..., -1]
-    # Only partly covered texels need it, and they are few in most pictures.
-    partly = alpha != 1
-    divisor = alpha[partly][..., None]
-    covered = divisor > 0
-    colour = np.where(covered, premultiplied[partly][..., :-1], 0)
-    straight[partly, :-1] = colour / np.where(covered, divisor, 1)
+    covered = alpha > 0
+    for channel in range(premultiplied.shape[-1] - 1):
+        np.divide(premultiplied[..., channel], alpha, out=straight[..., channel], where=covered)
+    straight[..., -1] = alpha
     return straight
 
 

@@ -12,11 +12,13 @@ ToneCurve = Literal["none", "reinhard", "aces"]
 
 def expose(colour: NDArray[np.float32], stops: float) -> NDArray[np.float32]:
     """Double the light `stops` times; negative stops halve it."""
-    return colour * np.float32(2.0**stops)
+    return colour * np.float32(2.0**stops) if stops != 0 else colour
 
 
 def apply_tone_curve(colour: NDArray[np.float32], curve: ToneCurve) -> NDArray[np.float32]:
-    """Bend linear light, shape (..., 1 or 3), straight alpha, by the named curve.
+    """Bend linear light, shape (..., C), not multiplied by alpha, by the named curve.
+
+    From three channels on the first three are a colour. A channel after the colour is bent along.
 
     Negative light and NaN become 0 before the two bending curves, infinity their upper end.
     """
@@ -28,7 +30,7 @@ def apply_tone_curve(colour: NDArray[np.float32], curve: ToneCurve) -> NDArray[n
 
 def _reinhard(light: NDArray[np.float32]) -> NDArray[np.float32]:
     """Scale each colour by 1 / (1 + its luminance) (Reinhard et al. 2002, equation 3)."""
-    grey = luminance(light)[..., None] if light.shape[-1] == 3 else light
+    grey = luminance(light)[..., None] if light.shape[-1] >= 3 else light
     return light / (1 + grey)
 
 

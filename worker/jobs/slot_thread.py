@@ -4,6 +4,7 @@ import logging
 import threading
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
@@ -111,13 +112,14 @@ class SlotThread(threading.Thread):
             "digest": claim.digest,
             "assets": str(self._desk.assets.folder),
         }
-        next_report = 0.0
+        next_report = time.monotonic() + REPORT_SECONDS  # short work is not worth a write
 
         def report(progress: float, stage: str) -> None:
             nonlocal next_report
             if time.monotonic() >= next_report:
                 next_report = time.monotonic() + REPORT_SECONDS
-                self._desk.claims.report(claim, progress, stage)
+                with suppress(SQLAlchemyError, StorageFullError):  # progress is only told
+                    self._desk.claims.report(claim, progress, stage)
 
         try:
             return self._slot.run(

@@ -30,11 +30,13 @@ class Rendering:
 
     Attributes:
         image: float32 (height, width, 4), linear, alpha premultiplied; 0 where nothing is.
-        facts: draw_ms and jit_ms (linking programs and their first draws), triangles, texels.
+        timings: Milliseconds: draw_ms, and jit_ms for linking programs and their first draws.
+        counts: triangles and texels.
     """
 
     image: Image
-    facts: dict[str, Any]
+    timings: dict[str, float]
+    counts: dict[str, int]
 
 
 class _Engine:
@@ -91,15 +93,14 @@ def render(scene: Scene, output: RenderOutput, textures: TextureMaker, report: R
         )
     engine.context.check("resolving")
     jit = engine.renderer.jit_seconds - jit_before
-    facts = {
+    timings = {
         "draw_ms": round((time.perf_counter() - start - jit) * 1000, 3),
         "jit_ms": round(jit * 1000, 3),
-        "triangles": built.triangles,
-        "texels": built.texels,
     }
+    counts = {"triangles": built.triangles, "texels": built.texels}
     engine.builder.trim()
     report(1.0, "draw")
-    return Rendering(Image(pixels, "colour"), facts)
+    return Rendering(Image(pixels, "colour"), timings, counts)
 
 
 def fingerprint() -> str:

@@ -88,6 +88,30 @@ def wait_until():
 
 
 @pytest.fixture
+def begin(wait_until):
+    """Waits until a job is running and returns it."""
+
+    def begin(engine, job):
+        wait_until(lambda: engine.get(job.tenant, job.id).state == "running")
+        return job
+
+    return begin
+
+
+@pytest.fixture
+def is_gone():
+    """Whether a process has ended; what nobody has reaped yet has ended too."""
+
+    def is_gone(pid):
+        try:
+            return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] in "ZX"
+        except (FileNotFoundError, ProcessLookupError):
+            return True
+
+    return is_gone
+
+
+@pytest.fixture
 def finish(wait_until):
     """Waits for the end of a job and returns it."""
 

@@ -41,9 +41,13 @@ def test_writers_take_turns(database):
 
 
 def test_a_block_that_raises_changes_nothing(database):
-    with pytest.raises(ZeroDivisionError), database.writing() as connection:
-        connection.execute(insert(assets).values(ROW | {"sha256": "x"}))
-        raise ZeroDivisionError
+    def write_and_fail():
+        with database.writing() as connection:
+            connection.execute(insert(assets).values(ROW | {"sha256": "x"}))
+            raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        write_and_fail()
     with database.reading() as connection:
         assert connection.execute(select(assets)).all() == []
 

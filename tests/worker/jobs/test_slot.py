@@ -48,15 +48,6 @@ def ask(tmp_path):
     return ask
 
 
-def is_gone(pid):
-    """Whether a process has ended; what nobody has reaped yet has ended too."""
-    try:
-        with open(f"/proc/{pid}/stat") as file:
-            return file.read().rpartition(")")[2].split()[0] in "ZX"
-    except (FileNotFoundError, ProcessLookupError):
-        return True
-
-
 def test_a_warm_child_answers_what_it_found(slot, ask, tmp_path):
     outcome = ask(slot, do="write", bytes=1000)
     assert outcome.status == "ok"
@@ -121,7 +112,9 @@ def test_a_dead_idle_child_is_noticed(slot, ask, tmp_path):
     assert ask(slot, do="nothing").status == "ok"
 
 
-def test_a_stuck_native_call_with_all_signals_blocked_ends_at_its_limit(slot, ask, tmp_path):
+def test_a_stuck_native_call_with_all_signals_blocked_ends_at_its_limit(
+    slot, ask, is_gone, tmp_path
+):
     note = tmp_path / "pids"
     started = time.monotonic()
     outcome = ask(slot, limit=0.5, do="stuck", note_pid=str(note))

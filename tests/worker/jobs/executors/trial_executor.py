@@ -62,12 +62,31 @@ def _sleep(body, out, report):
         time.sleep(min(left, 0.02))
 
 
+def _burn(body, out, report):
+    end = time.monotonic() + body["seconds"]
+    while time.monotonic() < end:
+        pass
+
+
+def _wait(body, out, report):
+    """Until the test opens the gate."""
+    while not Path(body["gate"]).exists():
+        time.sleep(0.005)
+
+
 def _sleep_once(body, out, report):
     """Slow the first time, quick when repeated."""
     marker = Path(body["marker"])
     if not marker.exists():
         marker.touch()
         time.sleep(60)
+
+
+def _stuck_once(body, out, report):
+    marker = Path(body["marker"])
+    if not marker.exists():
+        marker.touch()
+        _stuck(body, out, report)
 
 
 def _segfault(body, out, report):
@@ -126,7 +145,10 @@ _DO = {
     "nothing": _nothing,
     "describe": _describe,
     "sleep": _sleep,
+    "burn": _burn,
+    "wait": _wait,
     "sleep once": _sleep_once,
+    "stuck once": _stuck_once,
     "segfault": _segfault,
     "stuck": _stuck,
     "refuse": _refuse,

@@ -1,0 +1,71 @@
+"""`python -m service` serves until it is told to stop, and then finishes what is running."""
+
+import logging
+import sys
+import threading
+from types import FrameType
+
+import uvicorn
+
+from service.app import create_app, make_engine
+from service.settings import Settings
+from worker.jobs.engine import EmbeddedEngine
+from worker.jobs.errors import DataFolderInUseError
+from worker.jobs.forkserver import start_forkserver
+
+
+class Server(uvicorn.Server):
+    """Goes on answering while the engine drains: the first signal drains, the second one ends."""
+
+    def __init__(self, config: uvicorn.Config, engine: EmbeddedEngine, patience: float) -> None:
+        super().__init__(config)
+        self._engine = engine
+        self._patience = patience
+        self._drain: threading.Thread | None = None
+
+    def handle_exit(self, sig: int, frame: FrameType | None) -> None:
+        """Take nothing new, finish what is running, then stop serving."""
+        if self._drain is not None:
+            super().handle_exit(sig, frame)
+            return
+
+        def drain() -> None:
+            self._engine.drain(self._patience)
+            self.should_exit = True
+
+        self._drain = threading.Thread(target=drain, name="drain")
+        self._drain.start()
+
+
+def main() -> int:
+    """Serve; the answer is the exit code."""
+    settings = Settings()
+    logging.basicConfig(
+        level=settings.log_level.upper(), format="%(asctime)s %(levelname)s %(name)s: %(message)s"
+    )
+    start_forkserver()
+    engine = make_engine(settings)
+    config = uvicorn.Config(
+        create_app(settings, engine),
+        host=settings.host,
+        port=settings.port,
+        log_level=settings.log_level,
+        log_config=None,
+        server_header=False,
+        timeout_graceful_shutdown=5,
+    )
+    server = Server(config, engine, settings.drain_seconds)
+    socket = config.bind_socket()
+    try:
+        engine.start()
+    except DataFolderInUseError as error:
+        print(f"texloom: {error}", file=sys.stderr)  # noqa: T201
+        return 1
+    host, port = socket.getsockname()[:2]
+    print(f"Texloom serves http://{host}:{port} (documentation: /docs)", flush=True)  # noqa: T201
+    server.run([socket])
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,98 @@
+"""Everything the service refuses: one table of codes, one shape, RFC 9457.
+
+Nothing of the request is repeated but the names of keys, and no stack trace leaves the log.
+"""
+
+from collections.abc import Mapping, Sequence
+from typing import Final
+
+from starlette.responses import Response
+
+from api_schemas.problems import CostFigures, JobFailure, Obstruction, Problem
+
+MEDIA_TYPE: Final = "application/problem+json"
+
+TABLE: Final[Mapping[str, tuple[int, str]]] = {
+    "json_malformed": (400, "The body is not one JSON value"),
+    "json_encoding": (400, "The body is not UTF-8"),
+    "json_duplicate_key": (400, "An object holds a key twice"),
+    "json_number": (400, "A number is not finite or too long"),
+    "json_surrogate": (400, "A text holds half a character"),
+    "json_too_deep": (400, "The body is nested too deeply"),
+    "multipart_malformed": (400, "The form is not well-formed"),
+    "origin_refused": (403, "Pages of this origin may not change anything"),
+    "not_found": (404, "There is nothing here"),
+    "job_unknown": (404, "There is no such job"),
+    "asset_unknown": (404, "There is no such asset"),
+    "technique_unknown": (404, "There is no such technique"),
+    "method_not_allowed": (405, "This cannot be done here"),
+    "not_acceptable": (406, "Nothing that is made here is accepted"),
+    "asset_missing": (409, "An asset has not been uploaded"),
+    "asset_unusable": (409, "The upload cannot be used as a picture"),
+    "asset_unsupported": (409, "The upload is of a kind that is not taken"),
+    "asset_too_large": (409, "The upload's picture is too large"),
+    "camera_degenerate": (409, "The camera cannot see"),
+    "light_degenerate": (409, "A light has no direction or no shape"),
+    "transform_singular": (409, "A transform cannot be undone"),
+    "nesting_too_deep": (409, "Too many levels within each other"),
+    "too_many_nodes": (409, "Too many textures and scene nodes"),
+    "too_many_maps": (409, "Too many maps on one surface"),
+    "over_budget": (409, "The request would take too much time or memory"),
+    "job_not_finished": (409, "The job is not finished"),
+    "job_cancelled": (409, "The job was cancelled"),
+    "job_failed": (409, "The job failed"),
+    "result_evicted": (410, "The result has been removed"),
+    "body_too_large": (413, "The body is too large"),
+    "media_type_unsupported": (415, "This media type is not taken here"),
+    "range_not_satisfiable": (416, "The file does not have these bytes"),
+    "request_invalid": (422, "The request does not fit its schema"),
+    "queue_full": (429, "Too much is waiting already"),
+    "internal_error": (500, "The service made a mistake"),
+    "draining": (503, "The service is stopping"),
+    "not_ready": (503, "The service is not ready yet"),
+    "storage_full": (503, "The disk is full"),
+}
+"""Status and title of every code."""
+
+
+class ProblemError(Exception):
+    """A request that is refused, with all that its answer says."""
+
+    def __init__(
+        self,
+        code: str,
+        detail: str | None = None,
+        *,
+        pointer: str | None = None,
+        problems: Sequence[Obstruction] | None = None,
+        estimate: CostFigures | None = None,
+        limit: CostFigures | None = None,
+        failure: JobFailure | None = None,
+        instance: str | None = None,
+        headers: Mapping[str, str] | None = None,
+    ) -> None:
+        super().__init__(code)
+        status, title = TABLE[code]
+        self.problem = Problem(
+            type=f"urn:texloom:problem:{code}",
+            title=title,
+            status=status,
+            code=code,
+            detail=detail,
+            pointer=pointer,
+            problems=None if problems is None else list(problems),
+            estimate=estimate,
+            limit=limit,
+            failure=failure,
+            instance=instance,
+        )
+        self.headers = dict(headers or {})
+
+    def response(self) -> Response:
+        """Return the answer."""
+        return Response(
+            self.problem.model_dump_json(exclude_none=True),
+            status_code=self.problem.status,
+            headers={"Cache-Control": "no-store", **self.headers},
+            media_type=MEDIA_TYPE,
+        )

@@ -1,0 +1,177 @@
+"""Jobs: look, list, cancel, and fetch what they made."""
+
+import re
+from typing import Annotated, Final
+from urllib.parse import urlencode
+
+from fastapi import APIRouter, Path, Query
+from starlette.concurrency import run_in_threadpool
+from starlette.requests import Request
+from starlette.responses import Response
+
+from api_schemas.jobs import CURSOR_PATTERN, JOB_ID_PATTERN, Job, JobPage, State
+from service.documentation import (
+    DIGEST,
+    ETAG,
+    IF_HEADERS,
+    LATER,
+    LOCATION,
+    PICTURES,
+    PREFER,
+    PREFERENCE,
+    header,
+    job_links,
+    problems,
+)
+from service.engine_access import Engine
+from service.job_views import job_url, require_succeeded, result, view
+from service.negotiation import patience, require_accepted
+from service.problems import ProblemError
+from service.submission import job_answer, picture
+from service.tenants import Tenant
+from worker.jobs import job as records
+from worker.jobs.engine import EmbeddedEngine
+
+router = APIRouter(tags=["jobs"])
+
+JobId = Annotated[
+    str, Path(description="The job's name.", json_schema_extra={"pattern": JOB_ID_PATTERN})
+]
+WELL_FORMED: Final = re.compile(JOB_ID_PATTERN)
+
+
+@router.get(
+    "/v1/jobs",
+    operation_id="list_jobs",
+    summary="List jobs",
+    response_model=JobPage,
+    responses=problems("request_invalid"),
+)
+def list_jobs(
+    engine: Engine,
+    tenant: Tenant,
+    limit: Annotated[int, Query(ge=1, le=100, description="Jobs on a page.")] = 20,
+    cursor: Annotated[
+        str | None, Query(pattern=CURSOR_PATTERN, description="From a page's `next`.")
+    ] = None,
+    state: Annotated[State | None, Query(description="Only jobs in this state.")] = None,
+) -> Response:
+    """Newest first; `next` leads to older ones."""
+    found, more = engine.list(tenant, cursor=cursor, limit=limit, state=state)
+    query = {"limit": limit, "cursor": more} | ({"state": state} if state else {})
+    page = JobPage(
+        jobs=[view(job) for job in found], next=f"/v1/jobs?{urlencode(query)}" if more else None
+    )
+    return Response(
+        page.model_dump_json(),
+        headers={"Cache-Control": "no-store"},
+        media_type="application/json",
+    )
+
+
+@router.get(
+    "/v1/jobs/{job_id}",
+    operation_id="get_job",
+    summary="Look at a job",
+    responses={
+        200: {
+            "description": "The job.",
+            "model": Job,
+            "headers": LOCATION | PREFERENCE | LATER,
+            "links": job_links(),
+        },
+        **problems("job_unknown"),
+    },
+    openapi_extra={"parameters": [PREFER]},
+)
+async def get_job(request: Request, job_id: JobId, engine: Engine, tenant: Tenant) -> Response:
+    """How far it is; `Prefer: wait=N` waits for its end."""
+    job = await run_in_threadpool(find, engine, tenant, job_id)
+    seconds, applied = patience(request, 0)
+    if seconds and job.state not in records.FINAL_STATES:
+        job = await engine.finished(tenant, job.id, seconds) or job
+    return job_answer(job, 200, {"Preference-Applied": applied} if applied else {})
+
+
+@router.delete(
+    "/v1/jobs/{job_id}",
+    status_code=303,
+    operation_id="cancel_job",
+    summary="Cancel a job",
+    responses={
+        303: {
+            "description": "The job as it is now: its record stays, and this leads to it.",
+            "model": Job,
+            "headers": LOCATION,
+        },
+        **problems("origin_refused", "job_unknown"),
+    },
+)
+def cancel_job(job_id: JobId, engine: Engine, tenant: Tenant) -> Response:
+    """Stops it wherever it is; a finished one stays as it is, and asking again does no harm."""
+    job = engine.cancel(tenant, job_id) if WELL_FORMED.fullmatch(job_id) else None
+    if job is None:
+        raise ProblemError("job_unknown")
+    return Response(
+        view(job).model_dump_json(),
+        status_code=303,
+        headers={"Location": job_url(job.id), "Cache-Control": "no-store"},
+        media_type="application/json",
+    )
+
+
+RESULT_REFUSALS: Final = problems(
+    "job_unknown",
+    "not_acceptable",
+    "job_not_finished",
+    "job_cancelled",
+    "job_failed",
+    "result_evicted",
+    "range_not_satisfiable",
+)
+RESULT_HEADERS: Final = ETAG | DIGEST
+RESULT: Final = {
+    200: {"description": "The whole file.", "content": PICTURES, "headers": RESULT_HEADERS},
+    206: {
+        "description": "The part that was asked for.",
+        "content": PICTURES,
+        "headers": RESULT_HEADERS | {"Content-Range": header("Which part it is.")},
+    },
+    304: {"description": "The caller has it already.", "headers": RESULT_HEADERS},
+    **RESULT_REFUSALS,
+}
+
+
+@router.head(
+    "/v1/jobs/{job_id}/result",
+    operation_id="head_result",
+    summary="Look at a finished file from outside",
+    response_class=Response,
+    responses={status: item for status, item in RESULT.items() if status not in (206, 416)},
+)
+@router.get(
+    "/v1/jobs/{job_id}/result",
+    operation_id="get_result",
+    summary="Fetch a finished file",
+    description=f"The file never changes. {IF_HEADERS}",
+    response_class=Response,
+    responses=RESULT,
+)
+def get_result(request: Request, job_id: JobId, engine: Engine, tenant: Tenant) -> Response:
+    """The file never changes."""
+    job = find(engine, tenant, job_id)
+    require_succeeded(job)
+    require_accepted(request, result(job).media_type)
+    return picture(request, job, engine, {"Vary": "Accept"})
+
+
+def find(engine: EmbeddedEngine, tenant: str, job_id: str) -> records.Job:
+    """Return one of the tenant's jobs.
+
+    Raises:
+        ProblemError: There is none of this name, or it is somebody else's.
+    """
+    job = engine.get(tenant, job_id) if WELL_FORMED.fullmatch(job_id) else None
+    if job is None:
+        raise ProblemError("job_unknown")
+    return job

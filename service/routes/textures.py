@@ -1,0 +1,43 @@
+"""Requests for textures."""
+
+from typing import Annotated
+
+from fastapi import APIRouter, Depends
+from starlette.requests import Request
+from starlette.responses import Response
+
+from api_schemas.requests import TextureRequest
+from service.documentation import PREFER, SUBMITTED, json_request
+from service.engine_access import Configuration, Engine
+from service.examples import examples
+from service.json_body import body_of
+from service.submission import submitted
+from service.tenants import Tenant
+
+router = APIRouter(tags=["pictures"])
+
+
+@router.post(
+    "/v1/textures",
+    status_code=202,
+    operation_id="create_texture",
+    summary="Make a texture",
+    responses=SUBMITTED,
+    openapi_extra={
+        "parameters": [PREFER],
+        **json_request("TextureRequest", examples("texture")),
+    },
+)
+async def create_texture(
+    request: Request,
+    body: Annotated[TextureRequest, Depends(body_of(TextureRequest))],
+    engine: Engine,
+    settings: Configuration,
+    tenant: Tenant,
+) -> Response:
+    """Takes a specification, answers a job; or the picture itself where Accept prefers an image.
+
+    A picture is waited for 30 seconds, or as long as `Prefer: wait=N` says; if it takes longer, the
+    answer is the job.
+    """
+    return await submitted(request, body, engine, settings, tenant)

@@ -1,0 +1,102 @@
+"""What an operator may set, from environment variables that begin with TEXLOOM_."""
+
+from pathlib import Path
+from typing import Annotated, Literal
+
+from pydantic import Field, field_validator
+from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
+
+MEBIBYTE = 1 << 20
+GIBIBYTE = 1 << 30
+
+
+class Settings(BaseSettings):
+    """The defaults suit one person on one machine; each says why it is what it is."""
+
+    model_config = SettingsConfigDict(env_prefix="TEXLOOM_", frozen=True, extra="ignore")
+
+    host: str = Field(
+        default="127.0.0.1",
+        description="Address to listen on. This machine only, since there are no keys yet.",
+    )
+    port: Annotated[int, Field(ge=0, le=65535)] = Field(
+        default=8000, description="Port to listen on; 0 takes a free one. What people expect."
+    )
+    data: Path = Field(
+        default=Path("data"),
+        description="Folder of records, uploads, results and caches. Beside where one started it, "
+        "so that it is found again.",
+    )
+    gl: Literal["osmesa", "egl"] = Field(
+        default="osmesa",
+        description="OpenGL platform of the workers. OSMesa needs no display and no device.",
+    )
+    native_cpu: bool = Field(
+        default=False,
+        description="Compile for this very processor. Off: the same bytes on every machine.",
+    )
+    slots: Annotated[int, Field(ge=1, le=64)] = Field(
+        default=2,
+        description="Jobs done at a time. Two, so that a long job does not stop a short one.",
+    )
+    queue_limit: Annotated[int, Field(ge=0, le=1_000_000)] = Field(
+        default=256,
+        description="Jobs that may wait before more are refused with 429. A few minutes of work: "
+        "an honest refusal is better than a wait without end.",
+    )
+    time_limit_seconds: Annotated[float, Field(gt=0, le=86400)] = Field(
+        default=600.0,
+        description="After which a running job is killed. Ten times what the cost limit lets in, "
+        "so that only what is stuck meets it.",
+    )
+    cost_limit_seconds: Annotated[float, Field(gt=0)] = Field(
+        default=60.0,
+        description="Estimated time on one core beyond which a request is refused. A minute is "
+        "what somebody waits for a picture.",
+    )
+    cost_limit_bytes: Annotated[float, Field(gt=0)] = Field(
+        default=2.0 * GIBIBYTE,
+        description="Estimated memory beyond which a request is refused. Two slots of it fit a "
+        "laptop.",
+    )
+    memory_limit_bytes: Annotated[int, Field(ge=128 * MEBIBYTE)] = Field(
+        default=4 * GIBIBYTE,
+        description="Memory at which a worker is killed. Twice the cost limit: estimates are "
+        "rough.",
+    )
+    body_limit_bytes: Annotated[int, Field(ge=1024)] = Field(
+        default=MEBIBYTE,
+        description="Longest JSON body. The largest scene the language allows takes a tenth of it.",
+    )
+    upload_limit_bytes: Annotated[int, Field(ge=1024)] = Field(
+        default=256 * MEBIBYTE,
+        description="Longest upload. An 8192 x 4096 half float panorama, uncompressed.",
+    )
+    measure_limit_seconds: Annotated[float, Field(gt=0)] = Field(
+        default=20.0, description="Time to look into an upload. A minute's worth of pixels fits."
+    )
+    wait_seconds: Annotated[int, Field(ge=0, le=60)] = Field(
+        default=30,
+        description="How long a request for a picture waits for it, unless it prefers otherwise. "
+        "Below the patience of most proxies.",
+    )
+    drain_seconds: Annotated[float, Field(ge=0)] = Field(
+        default=20.0,
+        description="How long running jobs may go on after SIGTERM before they are put back into "
+        "the queue. Below the 30 s after which service managers kill.",
+    )
+    cors_origins: Annotated[tuple[str, ...], NoDecode] = Field(
+        default=(),
+        description="Web origins whose pages may use the service, separated by commas. None, since "
+        "a page anywhere could otherwise make this machine work.",
+    )
+    log_level: Literal["debug", "info", "warning", "error"] = Field(
+        default="info", description="How much is told on stderr. Requests and what went wrong."
+    )
+
+    @field_validator("cors_origins", mode="before")
+    @classmethod
+    def _split(cls, value: object) -> object:
+        if isinstance(value, str):
+            return tuple(part.strip() for part in value.split(",") if part.strip())
+        return value

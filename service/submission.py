@@ -1,0 +1,102 @@
+"""The way of a request for a picture: settle, admit, submit, perhaps wait, answer."""
+
+from starlette.concurrency import run_in_threadpool
+from starlette.requests import Request
+from starlette.responses import Response
+
+from api_schemas.cost import Cost
+from api_schemas.requests import Request as PictureRequest
+from service.admission import admitted, examine, kind_of
+from service.engine_access import asset_facts
+from service.job_views import RETRY_SECONDS, job_url, require_succeeded, result, result_url, view
+from service.negotiation import MEDIA_TYPES, Wish, wish
+from service.problems import ProblemError
+from service.settings import Settings
+from service.stored_files import stored_file
+from worker.jobs.engine import EmbeddedEngine
+from worker.jobs.job import FINAL_STATES, Job
+
+
+async def submitted(
+    request: Request,
+    body: PictureRequest,
+    engine: EmbeddedEngine,
+    settings: Settings,
+    tenant: str,
+) -> Response:
+    """Answer a request for a picture with its job, or with the picture where that is wished.
+
+    Raises:
+        ProblemError: It cannot be done, or its job failed while the caller waited for the picture.
+    """
+    wished = wish(request, body.output.format, settings.wait_seconds)
+    job = await run_in_threadpool(_submit, body, wished, engine, settings, tenant)
+    if wished.wait_seconds and job.state not in FINAL_STATES:
+        job = await engine.finished(tenant, job.id, wished.wait_seconds) or job
+    applied = {"Preference-Applied": wished.applied} if wished.applied else {}
+    if wished.picture and job.state in FINAL_STATES:
+        require_succeeded(job)
+        return await run_in_threadpool(picture, request, job, engine, applied)
+    return job_answer(job, 200 if job.state in FINAL_STATES else 202, applied)
+
+
+def job_answer(job: Job, status: int, headers: dict[str, str]) -> Response:
+    """Answer with a job; one that is not finished says when to ask again."""
+    later = {} if job.state in FINAL_STATES else {"Retry-After": str(RETRY_SECONDS)}
+    return Response(
+        view(job).model_dump_json(),
+        status_code=status,
+        headers={
+            "Location": job_url(job.id),
+            "Cache-Control": "no-store",
+            "Vary": "Accept, Prefer",
+            **later,
+            **headers,
+        },
+        media_type="application/json",
+    )
+
+
+def picture(
+    request: Request, job: Job, engine: EmbeddedEngine, headers: dict[str, str]
+) -> Response:
+    """Answer with a succeeded job's file.
+
+    Raises:
+        ProblemError: The file has been removed.
+    """
+    path = engine.result_path(job)
+    if path is None:
+        detail = "ask for the picture again to have it made again"
+        raise ProblemError("result_evicted", detail, instance=job_url(job.id))
+    file = result(job)
+    suffix = next(name for name, kind in MEDIA_TYPES.items() if kind == file.media_type)
+    return stored_file(
+        request,
+        path,
+        media_type=file.media_type,
+        sha256=file.sha256,
+        headers={
+            "Texloom-Digest": job.digest,
+            "Content-Location": result_url(job.id),
+            "Content-Disposition": f'inline; filename="{job.digest[:12]}.{suffix}"',
+            **headers,
+        },
+    )
+
+
+def _submit(
+    body: PictureRequest, wished: Wish, engine: EmbeddedEngine, settings: Settings, tenant: str
+) -> Job:
+    limit = Cost(settings.cost_limit_seconds, settings.cost_limit_bytes)
+    finding = examine(
+        body, wished.file_format, lambda sha256: asset_facts(engine, tenant, sha256), limit
+    )
+    settled, digest = admitted(finding)
+    return engine.submit(
+        kind_of(settled),
+        settled.model_dump(mode="json"),
+        digest,
+        tenant=tenant,
+        priority=settled.priority,
+    )

@@ -1,0 +1,54 @@
+"""The real app with the real engine, whose executor makes pictures of one pixel."""
+
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from starlette.testclient import TestClient
+
+from service.app import create_app
+from service.settings import Settings
+from worker.jobs.engine import EmbeddedEngine
+from worker.jobs.forkserver import start_forkserver
+
+EXECUTORS = str(Path(__file__).parent / "executors")
+
+
+@pytest.fixture(scope="session")
+def forkserver() -> Iterator[None]:
+    """Children get the path of modules from this process, so the executors are found by name."""
+    sys.path.insert(0, EXECUTORS)
+    start_forkserver()
+    yield
+    sys.path.remove(EXECUTORS)
+
+
+@pytest.fixture(scope="module")
+def engine(forkserver: None, tmp_path_factory: pytest.TempPathFactory) -> Iterator[EmbeddedEngine]:
+    engine = EmbeddedEngine(
+        tmp_path_factory.mktemp("service") / "data",
+        slots=2,
+        memory_limit_bytes=1 << 30,
+        executor="toy_executor",
+        measurer="toy_measurer",
+    )
+    engine.start()
+    yield engine
+    engine.drain(0)
+
+
+@pytest.fixture(scope="module")
+def settings() -> Settings:
+    return Settings(upload_limit_bytes=1 << 20)
+
+
+@pytest.fixture(scope="module")
+def app(engine: EmbeddedEngine, settings: Settings):
+    return create_app(settings, engine)
+
+
+@pytest.fixture(scope="module")
+def client(app) -> Iterator[TestClient]:
+    with TestClient(app, raise_server_exceptions=False, follow_redirects=False) as client:
+        yield client

@@ -1,0 +1,159 @@
+"""What happens to jobs when children, files and callers do their worst."""
+
+import os
+import signal
+
+import pytest
+
+from worker.jobs import files
+from worker.jobs.claims import Claims
+from worker.jobs.errors import StorageFullError
+
+
+def halves(tmp_path):
+    return list((tmp_path / "data" / "results").glob("*.part"))
+
+
+def test_a_job_survives_the_death_of_its_child(engine, submit, finish, wait_until, tmp_path):
+    note = tmp_path / "pids"
+    marker = str(tmp_path / "marker")
+    job = submit(engine, do="sleep once", marker=marker, note_pid=str(note))
+    first = int(wait_until(lambda: note.exists() and note.read_text().strip()))
+    os.kill(first, signal.SIGKILL)
+    done = finish(engine, job)
+    assert (done.state, done.attempt) == ("succeeded", 2)
+    assert int(note.read_text().split()[1]) != first
+    assert halves(tmp_path) == []
+
+
+def test_poison_fails_after_three_children_and_the_next_job_is_done(
+    engine, submit, finish, tmp_path
+):
+    note = tmp_path / "pids"
+    poison = submit(engine, do="segfault", note_pid=str(note))
+    good = submit(engine, do="nothing")
+    failed = finish(engine, poison)
+    assert (failed.state, failed.attempt) == ("failed", 3)
+    assert failed.failure["code"] == "worker_lost"
+    assert len(set(note.read_text().split())) == 3
+    assert finish(engine, good).state == "succeeded"
+    assert halves(tmp_path) == []
+
+
+def test_a_stuck_native_call_fails_at_its_limit_and_is_not_repeated(
+    engine, submit, finish, tmp_path
+):
+    job = submit(engine, limit=0.5, do="stuck")
+    good = submit(engine, do="nothing")
+    failed = finish(engine, job)
+    assert (failed.state, failed.attempt) == ("failed", 1)
+    assert failed.failure["code"] == "timed_out"
+    assert failed.finished - failed.started >= 0.5
+    assert finish(engine, good).state == "succeeded"
+    assert halves(tmp_path) == []
+
+
+def test_cancelling_ends_a_stuck_native_call(engine, submit, finish, wait_until, is_gone, tmp_path):
+    note = tmp_path / "pids"
+    job = submit(engine, do="stuck", note_pid=str(note))
+    pid = int(wait_until(lambda: note.exists() and note.read_text().strip()))
+    assert engine.cancel("local", job.id).state == "cancelled"
+    wait_until(lambda: is_gone(pid), 5)
+    assert finish(engine, submit(engine, do="nothing")).state == "succeeded"
+    assert engine.get("local", job.id).state == "cancelled"
+    assert halves(tmp_path) == []
+
+
+def test_cancelling_a_waiting_job_means_that_it_never_runs(engine, submit, begin, finish, tmp_path):
+    gate = tmp_path / "gate"
+    begin(engine, submit(engine, do="wait", gate=str(gate)))
+    job = submit(engine, do="nothing", note_pid=str(tmp_path / "note"))
+    last = submit(engine, do="nothing")
+    engine.cancel("local", job.id)
+    gate.touch()
+    finish(engine, last)
+    assert engine.get("local", job.id).state == "cancelled"
+    assert not (tmp_path / "note").exists()
+
+
+def test_cancelling_one_of_two_lets_the_other_have_the_result(
+    engine, submit, begin, finish, tmp_path
+):
+    gate = tmp_path / "gate"
+    one, two = (submit(engine, "d" * 64, do="wait", gate=str(gate)) for _ in range(2))
+    engine.cancel("local", begin(engine, one).id)
+    gate.touch()
+    assert finish(engine, two).state == "succeeded"
+    assert engine.get("local", one.id).state == "cancelled"
+
+
+def test_a_memory_hog_fails_and_the_next_job_is_done(make_engine, submit, finish):
+    engine = make_engine(memory_limit_bytes=200 << 20)
+    assert finish(engine, submit(engine, do="hog")).failure["code"] == "memory_exceeded"
+    assert finish(engine, submit(engine, do="nothing")).state == "succeeded"
+
+
+@pytest.mark.parametrize(
+    ("do", "code"), [("refuse", "refused"), ("stumble", "internal"), ("no file", "internal")]
+)
+def test_a_failure_is_kept_with_its_code(engine, submit, finish, do, code):
+    failed = finish(engine, submit(engine, do=do))
+    assert (failed.state, failed.failure["code"], failed.facts) == ("failed", code, None)
+
+
+def test_a_disk_that_is_full_in_the_child_is_told(engine, submit, finish):
+    assert finish(engine, submit(engine, do="fill disk")).failure["code"] == "storage_full"
+
+
+def test_a_disk_that_is_full_while_publishing_is_told(
+    engine, submit, finish, monkeypatch, tmp_path
+):
+    def fail(descriptor):
+        raise OSError(28, "No space left on device")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(files.os, "fsync", fail)
+        failed = finish(engine, submit(engine, do="nothing"))
+    assert failed.failure["code"] == "storage_full"
+    assert list((tmp_path / "data" / "results").iterdir()) == []
+    assert finish(engine, submit(engine, do="nothing")).state == "succeeded"
+
+
+def test_an_outcome_that_cannot_be_recorded_is_recorded_later(engine, submit, finish, monkeypatch):
+    """As on a disk on which there is no room for records, until there is."""
+    refusals = []
+    fail = Claims.fail
+
+    def refuse_twice(self, claim, why):
+        if len(refusals) < 2:
+            refusals.append(claim)
+            raise StorageFullError
+        fail(self, claim, why)
+
+    monkeypatch.setattr(Claims, "fail", refuse_twice)
+    assert finish(engine, submit(engine, do="refuse")).failure["code"] == "refused"
+    assert len(refusals) == 2
+
+
+def test_progress_that_cannot_be_recorded_costs_nothing(engine, submit, finish, monkeypatch):
+    def refuse(self, claim, progress, stage):
+        raise StorageFullError
+
+    monkeypatch.setattr(Claims, "report", refuse)
+    assert finish(engine, submit(engine, do="sleep", seconds=0.6)).state == "succeeded"
+
+
+def test_assets_that_were_deleted_under_running_work_go_with_its_end(
+    engine, submit, finish, wait_until, tmp_path
+):
+    gate = tmp_path / "gate"
+    upload = engine.assets.new_upload()
+    upload.write_bytes(b"picture")
+    engine.assets.put("local", upload, "a" * 64, {})
+    job = submit(engine, do="wait", gate=str(gate), asset="a" * 64)
+    engine.assets.delete("local", "a" * 64)
+    path = tmp_path / "data" / "assets" / "aa" / ("a" * 64)
+    assert path.exists()
+    gate.touch()
+    finish(engine, job)
+    wait_until(lambda: not path.exists(), 5)

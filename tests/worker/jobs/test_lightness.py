@@ -1,0 +1,28 @@
+"""The door stays light: what the forkserver holds is paid for by every child."""
+
+import subprocess
+import sys
+
+import pytest
+
+NATIVE = "numpy numba scipy OpenGL pyrender OpenImageIO trimesh fastapi starlette uvicorn pydantic"
+
+
+def loaded_by(module, names):
+    script = (
+        f"import sys, {module}\n"
+        f"sys.stdout.write(' '.join(sorted(set({names.split()}) & set(sys.modules))))"
+    )
+    answer = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, check=True
+    )
+    return answer.stdout
+
+
+def test_the_engine_loads_no_native_code():
+    assert loaded_by("worker.jobs.engine", NATIVE) == ""
+
+
+@pytest.mark.parametrize("module", ["worker.jobs.preload", "worker.jobs.slot"])
+def test_a_child_starts_without_the_records(module):
+    assert loaded_by(module, f"{NATIVE} sqlalchemy alembic asyncio") == ""

@@ -1,0 +1,189 @@
+"""Pictures of Perlin noise against the noise at points, and against themselves."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from api_schemas.textures.perlin import PerlinSpec
+from worker.synthesis._perlin_grid import axis_table, fill_fractal_noise
+from worker.synthesis._perlin_octaves import octaves_of
+from worker.synthesis._perlin_points import FADES, GRADIENTS_2D, noise3
+from worker.synthesis._permutation import permutation
+from worker.synthesis.perlin import noise_at, synthesize
+
+# Float32 rounds the terms of the weighted sum, each below 3: 0.5 * 3 * 2^-23 for the largest and
+# about as much for the others together, and their tables as often again.
+GRID_ERROR = 1e-6
+
+
+def spec(**fields):
+    return PerlinSpec(technique="perlin", **fields)
+
+
+def picture(size, **fields):
+    return synthesize(spec(**fields), size, {}).pixels[..., 0]
+
+
+def centres(size):
+    width, height = size
+    u, v = np.meshgrid((np.arange(width) + 0.5) / width, 1 - (np.arange(height) + 0.5) / height)
+    return u.ravel(), v.ravel()
+
+
+@given(
+    st.tuples(st.integers(1, 70), st.integers(1, 150)),
+    st.fixed_dictionaries(
+        {
+            "frequency": st.integers(1, 40),
+            "octaves": st.integers(1, 4),
+            "lacunarity": st.integers(2, 3),
+            "gain": st.floats(0, 1),
+            "seed": st.integers(0, 2**32 - 1),
+            "fade": st.sampled_from(["quintic", "cubic", "linear"]),
+            "gradients": st.sampled_from(["eight", "reference"]),
+            "range": st.sampled_from(["unit", "signed"]),
+        }
+    ),
+)
+def test_a_picture_is_the_noise_at_its_pixel_centres(size, fields):
+    pixels = picture(size, **fields)
+
+    expected = noise_at(spec(**fields), *centres(size), pixels_per_tile=min(size))
+    assert pixels.ravel() == pytest.approx(expected, abs=GRID_ERROR)
+
+
+def test_the_first_octave_with_reference_gradients_is_the_noise_of_2002_at_z_0():
+    pixels = picture((512, 512), frequency=16, gradients="reference", range="signed")
+
+    table = permutation(0)
+    for row, column in np.random.default_rng(0).integers(0, 480, (300, 2)):
+        x, y = (column + 0.5) / 32, (511.5 - row) / 32
+        # The last cells along u and v join the tile's ends
+        if x < 15 and y < 15:
+            assert pixels[row, column] == pytest.approx(noise3(x, y, 0.0, table), abs=GRID_ERROR)
+
+
+@pytest.mark.parametrize(("width", "height"), [(96, 64), (100, 37), (2100, 65)])
+def test_the_tile_repeats_bit_for_bit(width, height):
+    noise = spec(frequency=9, octaves=3, seed=5)
+    octaves = octaves_of(noise, 1e9)
+    pixels = np.empty((3 * height, 2 * width), np.float32)
+
+    fill_fractal_noise(
+        pixels,
+        axis_table(octaves, 0, np.arange(2 * width), width, FADES["quintic"]),
+        axis_table(octaves, 1, np.arange(3 * height), height, FADES["quintic"]),
+        np.array([octave.layer for octave in octaves], np.int32),
+        np.array([octave.cells for octave in octaves], np.int32),
+        np.array([octave.weight for octave in octaves], np.float32),
+        np.float32(0),
+        permutation(5),
+        GRADIENTS_2D["eight"].astype(np.float32),
+    )
+
+    tile = pixels[:height, :width].tobytes()
+    for down in range(3):
+        for across in range(2):
+            copy = pixels[down * height : (down + 1) * height, across * width :][:, :width]
+            assert copy.tobytes() == tile
+
+
+def test_pixels_do_not_depend_on_the_number_of_threads(with_threads):
+    fields = {"frequency": 13, "octaves": 4}
+
+    one = with_threads(1, lambda: picture((2200, 300), **fields))
+    two = with_threads(2, lambda: picture((2200, 300), **fields))
+
+    assert one.tobytes() == two.tobytes()
+
+
+def test_opposite_edges_join():
+    pixels = picture((256, 256), frequency=4, range="signed")
+
+    # Steps of 1/64 of a cell: no slope of this noise exceeds 2.2 per cell, also across the edges
+    for axis in (0, 1):
+        seam = np.take(pixels, 0, axis) - np.take(pixels, -1, axis)
+        assert abs(seam).max() <= 2.2 / 64
+        assert abs(np.diff(pixels, axis=axis)).max() <= 2.2 / 64
+
+
+@pytest.mark.parametrize(("gradients", "bound"), [("eight", 0.5**0.5), ("reference", 1.0)])
+def test_values_stay_within_the_stated_bounds(gradients, bound):
+    signed = picture((512, 512), frequency=32, octaves=3, gradients=gradients, range="signed")
+    unit = picture((512, 512), frequency=32, octaves=3, gradients=gradients)
+
+    assert abs(signed).max() <= bound
+    assert unit == pytest.approx((signed + 1) / 2, abs=1e-6)
+
+
+@pytest.mark.parametrize("field", [{"seed": 1}, {"fade": "cubic"}, {"gradients": "reference"}])
+def test_every_choice_changes_the_picture(field):
+    assert (
+        picture((64, 64), frequency=8).tobytes()
+        != picture((64, 64), frequency=8, **field).tobytes()
+    )
+
+
+@pytest.mark.parametrize("seed", [0, 7])
+def test_two_thirds_of_the_energy_lie_in_one_octave(seed):
+    size, cells = 1024, 64
+
+    pixels = picture((size, size), frequency=cells, seed=seed, range="signed")
+
+    energy = abs(np.fft.fft2(pixels)) ** 2
+    waves = np.fft.fftfreq(size, 1 / size) / cells
+    per_cell = np.hypot(waves[:, np.newaxis], waves)
+    band = energy[(per_cell >= 0.44) & (per_cell < 0.88)].sum() / energy.sum()
+    # 66.9 % for the mean over permutations; 4096 cells of one permutation scatter by 2 %
+    assert band == pytest.approx(0.669, abs=0.05)
+
+
+def test_octaves_are_not_zero_together_on_the_lattice_of_the_first():
+    u, v = np.meshgrid(np.arange(8) / 8, np.arange(8) / 8)
+    noise = spec(frequency=8, octaves=4, range="signed")
+
+    values = noise_at(noise, u.ravel(), v.ravel())
+
+    assert (abs(values) > 1e-3).mean() > 0.9
+
+
+def test_an_octave_fades_between_four_and_two_pixels_per_cell():
+    fine = spec(frequency=16)
+
+    assert [octave.weight for octave in octaves_of(fine, 64)] == [1.0]
+    assert [octave.weight for octave in octaves_of(fine, 48)] == [0.5]
+    assert octaves_of(fine, 32) == []
+    assert (picture((32, 32), frequency=16) == 0.5).all()
+
+
+def test_octaves_that_fade_leave_the_others_as_they_are():
+    noise = spec(frequency=4, octaves=3, gain=0.5)
+
+    weights = [octave.weight for octave in octaves_of(noise, 32)]
+
+    assert weights == [4 / 7, 2 / 7]
+
+
+def test_the_finest_octaves_of_the_language_are_survived():
+    pixels = picture((64, 64), frequency=4096, octaves=16, lacunarity=8, gain=1.0)
+    extreme = spec(frequency=4096, octaves=16, lacunarity=8, gain=1.0)
+
+    assert (pixels == 0.5).all()
+    assert np.isfinite(noise_at(extreme, *centres((8, 8)))).all()
+
+
+def test_an_octave_is_its_own_slice_of_the_noise_moved_by_its_own_shift():
+    u, v = np.random.default_rng(3).random((2, 200))
+    fields = {"frequency": 128, "gain": 0.25, "gradients": "reference", "range": "signed"}
+
+    first = noise_at(spec(**fields), u, v)
+    both = noise_at(spec(octaves=2, **fields), u, v)
+
+    table = permutation(0)
+    # One step of the R2 sequence in 256ths; the period is that of the noise in space
+    second = [
+        noise3(x, y, 1.0, table)
+        for x, y in zip(256 * u + 193 / 256, 256 * v + 145 / 256, strict=True)
+    ]
+    assert both * 1.25 == pytest.approx(first + 0.25 * np.array(second), abs=1e-12)

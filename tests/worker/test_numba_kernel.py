@@ -1,0 +1,51 @@
+import threading
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+
+from worker.numba_kernel import kernel, parallel_kernel, prange
+
+
+@kernel
+def quotient(a, b):
+    return a / b
+
+
+@kernel
+def product_sum(a, b, c):
+    return a * b + c
+
+
+@parallel_kernel
+def fill_squares(values):
+    for i in prange(len(values)):
+        values[i] = i * i
+
+
+def test_division_by_zero_follows_ieee():
+    assert quotient(1.0, 0.0) == np.inf
+    assert np.isnan(quotient(0.0, 0.0))
+
+
+def test_products_are_rounded_before_they_are_added():
+    a = 1 + 2.0**-30
+
+    # A fused multiply-add would keep the 2^-60 of the square
+    assert product_sum(a, a, -(1 + 2.0**-29)) == 0.0
+
+
+def test_threads_may_call_a_parallel_kernel_at_once():
+    start = threading.Barrier(4)
+
+    def squares(_):
+        values = np.empty(1000)
+        start.wait()
+        for _ in range(50):
+            fill_squares(values)
+        return values
+
+    with ThreadPoolExecutor(4) as pool:
+        results = list(pool.map(squares, range(4)))
+
+    for values in results:
+        assert (values == np.arange(1000.0) ** 2).all()

@@ -1,0 +1,40 @@
+"""The finished file: a picture becomes a PNG or an EXR as the request's output says."""
+
+from importlib.metadata import version
+from pathlib import Path
+
+from api_schemas.output import Output
+from worker.images import image_io
+from worker.images.image import Image
+
+MEDIA_TYPES = {"png": "image/png", "exr": "image/x-exr"}
+
+
+def write(image: Image, output: Output, digest: str, path: Path) -> str:
+    """Write a picture to a path and return the file's media type.
+
+    A PNG holds straight alpha and, for colour, sRGB after exposure and tone curve; an EXR holds
+    the linear premultiplied light itself. Equal arguments give equal bytes.
+    """
+    if output.format == "exr":
+        image_io.encode_exr(
+            {"": image},
+            path,
+            pixel_type=output.exr_type,
+            digest=digest,
+            version=version("texloom"),
+        )
+        return MEDIA_TYPES["exr"]
+    is_colour = image.meaning == "colour"
+    transfer = output.encoding
+    if transfer == "auto":
+        transfer = "srgb" if is_colour else "linear"
+    image_io.encode_png(
+        image,
+        path,
+        bits=output.png_bits,
+        transfer=transfer,
+        exposure=output.exposure if is_colour else 0.0,
+        tone_curve=output.tone_curve if is_colour else "none",
+    )
+    return MEDIA_TYPES["png"]

@@ -1,0 +1,85 @@
+"""One job from request to file, as a list of steps: find, synthesise or render, encode, store.
+
+This is the executor that the door in `worker.jobs` knows by name and loads in its children.
+"""
+
+import hashlib
+from pathlib import Path
+from typing import Any
+
+from api_schemas.families import SURFACE_SIDE, Meaning, TextureSpec
+from api_schemas.requests import REQUESTS, RenderRequest, Request
+from api_schemas.textures.image import ImageSpec
+from worker import result_file, synthesis
+from worker.fingerprint import fingerprint
+from worker.images.image import Image
+from worker.rendering import renderer
+from worker.rendering.scene_builder import TextureMaker
+from worker.stages import Report, Stages
+from worker.uploaded_pictures import UploadedPictures
+
+
+def warm(report: Report) -> dict[str, Any]:
+    """Compile every kernel and the usual shaders, or find them compiled.
+
+    Returns:
+        `fingerprint`: everything outside a request that decides pixels.
+    """
+    synthesis.warm(lambda share, name: report(0.5 * share, name))
+    renderer.warm(lambda share, name: report(0.5 + 0.5 * share, name))
+    report(1.0, "ready")
+    return {"fingerprint": fingerprint()}
+
+
+def run(request: dict[str, Any], out: Path, report: Report) -> dict[str, Any]:
+    """Make the picture a request asks for and write it to `out`.
+
+    Args:
+        request: `kind`, the normalised `body`, its `digest`, and the folder of `assets`.
+        out: Where the file is written; whoever asked gives it its final name.
+        report: Told the share of the job that is done, 0..1, and the name of the stage.
+
+    Returns:
+        JSON-able facts: media_type, bytes, sha256, width, height, timings in milliseconds, counts.
+
+    Raises:
+        WorkerError: The job cannot be done; its code says why.
+    """
+    body: Request = REQUESTS[request["kind"]].model_validate(request["body"])
+    stages = Stages(report)
+    timings, counts = stages.timings, dict[str, int]()
+    with stages.stage("find", 0.0, 0.02):
+        pictures = UploadedPictures(Path(request["assets"]), body)
+    if isinstance(body, RenderRequest):
+        with stages.stage("render", 0.02, 0.85) as progress:
+            drawn = renderer.render(body.scene, body.output, _maker(pictures), progress)
+            image, counts = drawn.image, drawn.counts
+            timings |= drawn.timings
+    else:
+        with stages.stage("synthesise", 0.02, 0.85):
+            width, height = body.output.size
+            image = synthesis.synthesize(body.texture, (width, height), pictures.read)
+    with stages.stage("encode", 0.85, 0.98):
+        media_type = result_file.write(image, body.output, request["digest"], out)
+    with stages.stage("hash", 0.98, 1.0), out.open("rb") as file:
+        sha256 = hashlib.file_digest(file, "sha256").hexdigest()
+    return {
+        "media_type": media_type,
+        "bytes": out.stat().st_size,
+        "sha256": sha256,
+        "width": image.width,
+        "height": image.height,
+        "timings": timings,
+        "counts": counts,
+    }
+
+
+def _maker(pictures: UploadedPictures) -> TextureMaker:
+    """Make textures for surfaces: uploaded pictures at their own size, all others at one size."""
+
+    def make(spec: TextureSpec, meaning: Meaning) -> Image:
+        if isinstance(spec, ImageSpec):
+            return pictures.read(spec, meaning)
+        return synthesis.synthesize(spec, (SURFACE_SIDE, SURFACE_SIDE), pictures.read, meaning)
+
+    return make

@@ -1,0 +1,29 @@
+"""Where a job is, and where its time went."""
+
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+Report = Callable[[float, str], None]
+
+
+class Stages:
+    """Tells the share of a job that is done, and times each stage."""
+
+    def __init__(self, report: Report) -> None:
+        """Begin a job whose progress goes to `report`."""
+        self._report = report
+        self.timings: dict[str, float] = {}
+        """Milliseconds by stage, as `<stage>_ms`."""
+
+    @contextmanager
+    def stage(self, name: str, start: float, end: float) -> Iterator[Report]:
+        """Run one stage, which takes the job's share from `start` to `end`.
+
+        Yields:
+            A report for the stage's own share, 0..1; the names of its parts are not passed on.
+        """
+        self._report(start, name)
+        began = time.perf_counter()
+        yield lambda share, _part: self._report(start + (end - start) * share, name)
+        self.timings[f"{name}_ms"] = round((time.perf_counter() - began) * 1000, 3)

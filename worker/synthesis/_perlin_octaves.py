@@ -1,0 +1,57 @@
+"""The octaves of fractal noise: their cells, weights and places, shared by grids and points."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from api_schemas.textures.perlin import PerlinSpec
+
+SHIFT_UNITS = 256
+
+
+@dataclass(frozen=True, slots=True)
+class Octave:
+    """One layer of noise: weight * noise(cells * (u, v) + shift / SHIFT_UNITS, layer).
+
+    Attributes:
+        cells: Lattice cells per tile along u and v, which is also the period.
+        weight: Share of the sum.
+        layer: Third lattice index, so that octaves have different gradients.
+        shift: Offset along u and v in 1/256 of a cell, so that the zeros on the lattices of
+            different octaves do not fall together. Octave n is shifted by n steps of the R2
+            sequence (Roberts, 2018), (0.7549, 0.5698) of a cell; the first one is not shifted.
+    """
+
+    cells: int
+    weight: float
+    layer: int
+    shift: tuple[int, int]
+
+
+def octaves_of(spec: PerlinSpec, pixels_per_tile: float) -> list[Octave]:
+    """Return the octaves that can be seen, coarse to fine; none when even the first is too fine.
+
+    Weights are gain^n over the sum of all gain^n, faded ones included, so that a smaller picture
+    shows the same noise with less detail. An octave fades as a smoothstep from full strength at 4
+    pixels per cell to nothing at 2: below, the pixels could not tell its frequencies apart.
+
+    Args:
+        spec: The noise.
+        pixels_per_tile: Of the coarser direction; infinity keeps every octave.
+    """
+    gains = [spec.gain**n for n in range(spec.octaves)]
+    octaves = []
+    for n, gain in enumerate(gains):
+        cells = spec.frequency * spec.lacunarity**n
+        weight = gain / sum(gains) * _visibility(pixels_per_tile / cells)
+        if weight > 0:
+            shift = (193 * n % SHIFT_UNITS, 145 * n % SHIFT_UNITS)
+            octaves.append(Octave(cells=cells, weight=weight, layer=n, shift=shift))
+    return octaves
+
+
+def _visibility(pixels_per_cell: float) -> float:
+    s = min(max((pixels_per_cell - 2) / 2, 0.0), 1.0)
+    return s * s * (3 - 2 * s)

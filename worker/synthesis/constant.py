@@ -1,0 +1,24 @@
+"""The same value at every point."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from worker.images.image import Image
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from api_schemas.textures.constant import ConstantSpec
+
+
+def synthesize(spec: ConstantSpec, size: tuple[int, int], inputs: Mapping[str, Image]) -> Image:
+    """Fill (width, height) with a colour of 1 to 4 channels; straight alpha is multiplied in."""
+    value = spec.value if isinstance(spec.value, list) else [spec.value]
+    texel = np.array(value, np.float32)
+    if len(value) in (2, 4):
+        texel[:-1] *= texel[-1]
+    width, height = size
+    return Image(np.full((height, width, len(value)), texel, np.float32), spec.meaning)

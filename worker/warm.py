@@ -1,0 +1,36 @@
+"""Compiles everything once, into the caches in the data folder that the service's children read.
+
+`python -m worker.warm` heeds the service's own settings TEXLOOM_DATA and TEXLOOM_GL.
+"""
+
+import os
+import sys
+import time
+from pathlib import Path
+
+from worker.jobs.environment import child_environment
+
+
+def main() -> None:
+    """Warm up in this process, and say how far it is."""
+    data = Path(os.environ.get("TEXLOOM_DATA", "data")).resolve()
+    os.environ |= child_environment(
+        data,
+        gl=os.environ.get("TEXLOOM_GL", "osmesa"),
+        native_cpu=os.environ.get("TEXLOOM_NATIVE_CPU", "").lower() in {"1", "true"},
+    )
+    for cache in ("NUMBA_CACHE_DIR", "MESA_SHADER_CACHE_DIR"):
+        Path(os.environ[cache]).mkdir(parents=True, exist_ok=True)
+    # Only now: numba, OpenBLAS and Mesa read their environment when they are loaded.
+    from worker import run_job  # noqa: PLC0415
+
+    began = time.monotonic()
+
+    def report(share: float, name: str) -> None:
+        sys.stderr.write(f"  {share:4.0%}  {time.monotonic() - began:5.1f} s  {name}\n")
+
+    run_job.warm(report)
+
+
+if __name__ == "__main__":
+    main()
