@@ -274,9 +274,7 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         # Outer sides first: the depth test then spares the shading of inner sides behind them.
         for hidden in (GL.GL_BACK, GL.GL_FRONT):
             GL.glCullFace(hidden)
-            GL.glDrawElements(
-                GL.GL_TRIANGLES, primitive.indices.size, GL.GL_UNSIGNED_INT, None
-            )
+            GL.glDrawElements(GL.GL_TRIANGLES, primitive.indices.size, GL.GL_UNSIGNED_INT, None)
         primitive._unbind()
         if not program.drawn:
             program.drawn = True
