@@ -19,7 +19,7 @@ from pyrender.constants import RenderFlags
 from worker.geometry.mesh import Mesh
 from worker.geometry.transforms import Matrix, normal_matrix, rigid_inverse
 from worker.rendering.fragment import surface_sources
-from worker.rendering.gl_context import GL, GLContext
+from worker.rendering.gl_context import GL, GLContext, check
 from worker.rendering.programs import Program, ProgramCache
 from worker.rendering.samplers import SamplerCache
 from worker.rendering.shading import Shading
@@ -98,6 +98,7 @@ def upload_mesh(mesh: Mesh) -> UploadedMesh:
         positions=mesh.positions, normals=mesh.normals, texcoord_0=mesh.uv, indices=mesh.triangles
     )
     primitive._add_to_context()
+    check("uploading a mesh")
     return primitive
 
 
@@ -204,7 +205,7 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         self._samplers.trim()
         self.viewport_width, self.viewport_height = size
         self.render(scene, RenderFlags.OFFSCREEN)
-        self._context.check("drawing a tile")
+        check("drawing a tile")
 
     # Hooks of pyrender.Renderer, in the order in which its traversal calls them.
 
