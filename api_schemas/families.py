@@ -3,7 +3,7 @@
 A technique's name is written once: its module's name, its `technique` literal, its word in the URL.
 """
 
-from typing import ClassVar, Literal
+from typing import ClassVar, Literal, Self
 
 from api_schemas.base import Schema
 from api_schemas.cost import Cost
@@ -46,3 +46,7 @@ class CoordinatesSpec(TechniqueSpec):
 
 class SurfaceSpec(TechniqueSpec):
     """Says how a surface sends light to the eye."""
+
+    def filled(self) -> Self:
+        """Return the surface with every parameter that follows another one set to its value."""
+        return self

@@ -109,6 +109,15 @@ def test_ambient_lights_add_up(studio: Studio) -> None:
     np.testing.assert_array_equal(drawn[3, 3, :3], [1.0, 0.5, 0.5])
 
 
+def test_the_ambient_colour_is_the_matt_one_unless_given(studio: Studio) -> None:
+    drawn = studio.poster(
+        {"technique": "phong", "diffuse_color": [0.5, 0.25, 0.125]},
+        lights=[{"type": "ambient", "radiance": [1.0, 1.0, 1.0]}],
+    )
+
+    np.testing.assert_array_equal(drawn[3, 3, :3], [0.5, 0.25, 0.125])
+
+
 def test_point_light_falls_with_the_square_of_the_distance(studio: Studio) -> None:
     side = 64
     drawn = studio.poster(

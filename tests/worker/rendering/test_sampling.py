@@ -205,6 +205,7 @@ def test_a_number_map_reads_its_channel_alone(
     drawn = studio.poster(
         {
             "technique": "phong",
+            "ambient_color": [1.0, 1.0, 1.0],
             "ambient_weight": {
                 "texture": studio.texture(texel[None, None]),
                 "channel": channel,
