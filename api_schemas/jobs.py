@@ -54,7 +54,9 @@ class Job(Schema):
     progress: Annotated[float, Field(ge=0, le=1)] = Field(description="From 0 to 1.")
     stage: str | None = Field(description="What is being done, while running.")
     created: AwareDatetime = Field(description="When the request arrived.")
-    started: AwareDatetime | None = Field(description="When the work began.")
+    started: AwareDatetime | None = Field(
+        description="When the work began: before the request, where an equal one had been made."
+    )
     finished: AwareDatetime | None = Field(description="When the job ended, however it ended.")
     result: Result | None = Field(description="The finished file, when succeeded.")
     failure: JobFailure | None = Field(description="What went wrong, when failed.")
