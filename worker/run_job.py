@@ -14,6 +14,7 @@ from worker import result_file, synthesis
 from worker.fingerprint import fingerprint
 from worker.images.image import Image
 from worker.rendering import renderer
+from worker.rendering.scene_builder import TextureMaker
 from worker.stages import Report, Stages
 from worker.uploaded_pictures import UploadedPictures
 
@@ -73,7 +74,7 @@ def run(request: dict[str, Any], out: Path, report: Report) -> dict[str, Any]:
     }
 
 
-def _maker(pictures: UploadedPictures) -> renderer.TextureMaker:
+def _maker(pictures: UploadedPictures) -> TextureMaker:
     """Make textures for surfaces: uploaded pictures at their own size, all others at one size."""
 
     def make(spec: TextureSpec, meaning: Meaning) -> Image:

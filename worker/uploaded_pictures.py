@@ -1,6 +1,7 @@
 """The uploaded pictures a request speaks of, read when they are needed."""
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from api_schemas.families import Meaning
 from api_schemas.feasibility import assets_in
@@ -9,6 +10,9 @@ from api_schemas.textures.image import ImageSpec
 from worker.errors import AssetMissingError
 from worker.images import image_io
 from worker.images.image import Image
+
+if TYPE_CHECKING:
+    from worker.images.codes import Transfer
 
 
 class UploadedPictures:
@@ -31,7 +35,7 @@ class UploadedPictures:
         Raises:
             UnusableAssetError: The file is damaged.
         """
-        transfer = "srgb" if spec.encoding == "srgb" else "linear"
+        transfer: Transfer = "srgb" if spec.encoding == "srgb" else "linear"
         return image_io.read(self._path(spec.asset), transfer, meaning)
 
     def _path(self, asset: str) -> Path:

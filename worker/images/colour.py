@@ -49,8 +49,9 @@ def linear_from_srgb(encoded: NDArray[Float]) -> NDArray[Float]:
 
 def luminance(colour: NDArray[np.float32]) -> NDArray[np.float32]:
     """Weigh red, green and blue, shape (..., 3 or more), to luminance, shape (...)."""
-    weights = np.array(LUMINANCE_WEIGHTS, np.float32)
-    return np.asarray(colour[..., :3] @ weights, np.float32)
+    red, green, blue = (np.float32(weight) for weight in LUMINANCE_WEIGHTS)
+    weighed = red * colour[..., 0] + green * colour[..., 1] + blue * colour[..., 2]
+    return np.asarray(weighed, np.float32)
 
 
 def premultiply(straight: NDArray[np.float32]) -> NDArray[np.float32]:

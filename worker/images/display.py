@@ -10,6 +10,8 @@ from worker.images.tone_curves import ToneCurve, apply_tone_curve, expose
 _BLOCK_TEXELS = 1 << 16
 
 
+# Pictures may hold infinity and NaN.
+@np.errstate(over="ignore", invalid="ignore")
 def display_codes(
     image: Image, bits: Bits, transfer: Transfer, exposure: float, tone_curve: ToneCurve
 ) -> Codes:
@@ -19,8 +21,8 @@ def display_codes(
         image: Linear light; colour is divided by its alpha first.
         bits: Of a code, 8 or 16.
         transfer: The curve of the codes of every channel but alpha.
-        exposure: In stops.
-        tone_curve: From scene light to 0..1; "none" clips.
+        exposure: In stops, of colour; data keeps its numbers.
+        tone_curve: From scene light to 0..1, of colour; "none" clips.
     """
     codes = np.empty(image.pixels.shape, np.uint8 if bits == 8 else np.uint16)
     # Some rows at a time: what lies between the steps then stays in the cache.
@@ -29,9 +31,9 @@ def display_codes(
         rows = slice(start, start + step)
         light = unpremultiply(image.pixels[rows]) if image.has_alpha else image.pixels[rows]
         alpha = light[..., -1]
-        if exposure != 0:
-            light = expose(light, exposure)
-        codes[rows] = codes_from_linear(apply_tone_curve(light, tone_curve), bits, transfer)
+        if image.meaning == "colour":
+            light = apply_tone_curve(expose(light, exposure), tone_curve)
+        codes[rows] = codes_from_linear(light, bits, transfer)
         # Alpha took part above only because whole texels are quicker than parts of them.
         if image.has_alpha:
             codes[rows, :, -1] = codes_from_linear(alpha, bits, "linear")

@@ -12,7 +12,7 @@ from worker.images.file_kinds import FileKind
 from worker.images.linearise import Alpha
 from worker.images.windows import Window
 
-# The largest GL texture; and 1 GiB as float32 RGBA, all that a worker child has to give.
+# The largest GL texture; and 1 GiB as float32 RGBA.
 MAX_SIDE = 16384
 MAX_TEXELS = 2**26
 

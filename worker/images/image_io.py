@@ -108,9 +108,7 @@ def read(path: Path, encoding: Transfer, meaning: Meaning) -> Image:
     with _opened(path, kind) as file:
         header = inspect(file.spec(), kind)
         decoded = _decode(file, header)
-    pixels = linearise(decoded, encoding, header.alpha, meaning)
-    if header.rec709 is not None and meaning == "colour":
-        pixels[..., :3] = pixels[..., :3] @ header.rec709.astype(np.float32).T
+    pixels = linearise(decoded, encoding, header.alpha, meaning, header.rec709)
     return Image(turn(place(pixels, header.data, header.display), header.orientation), meaning)
 
 
@@ -158,9 +156,8 @@ def encode_exr(
     """
     channels = join_layers(layers, pixel_type)
     height, width, count = channels.pixels.shape
-    spec = OpenImageIO.ImageSpec(width, height, count, pixel_type)
-    # Equal formats must be set for all at once: per channel they would be ignored.
-    spec.set_format(OpenImageIO.TypeDesc(channels.types[0]))
+    # Formats per channel are ignored when all are equal: the common one must be given here.
+    spec = OpenImageIO.ImageSpec(width, height, count, channels.types[0])
     if len(set(channels.types)) > 1:
         spec.channelformats = tuple(OpenImageIO.TypeDesc(name) for name in channels.types)
     spec.channelnames = channels.names

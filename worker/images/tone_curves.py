@@ -12,7 +12,7 @@ ToneCurve = Literal["none", "reinhard", "aces"]
 
 def expose(colour: NDArray[np.float32], stops: float) -> NDArray[np.float32]:
     """Double the light `stops` times; negative stops halve it."""
-    return colour * np.float32(2.0**stops)
+    return colour * np.float32(2.0**stops) if stops != 0 else colour
 
 
 def apply_tone_curve(colour: NDArray[np.float32], curve: ToneCurve) -> NDArray[np.float32]:

@@ -98,8 +98,10 @@ class Assets:
         """Remove those files that no tenant has and no work under way may read."""
         for sha256 in candidates:
             path = self._path(sha256)
-            if path.is_file():
-                with self._database.writing() as connection:
+            with self._database.reading() as connection:
+                seems_wanted = not path.is_file() or _is_wanted(connection, sha256)
+            if not seems_wanted:
+                with self._database.writing() as connection:  # nobody can put it meanwhile
                     if not _is_wanted(connection, sha256):
                         path.unlink(missing_ok=True)
 

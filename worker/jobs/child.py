@@ -15,6 +15,7 @@ import logging
 import os
 import resource
 import signal
+import sys
 from collections.abc import Callable, Mapping
 from multiprocessing import parent_process
 from multiprocessing.connection import Connection
@@ -78,6 +79,8 @@ def become_expendable() -> None:
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     os.dup2(2, 1)  # libraries print to stdout; the service's stdout is not theirs
     faulthandler.enable()
+    if "worker.jobs.preload" not in sys.modules:
+        log.warning("worker.jobs.preload was not loaded: processes may outlive the service")
 
 
 def die_with_parent() -> None:

@@ -52,17 +52,8 @@ class Claims:
 
     def claim(self) -> Claim | None:
         """Take the next work: interactive before batch, else first come, first served."""
-        next_in_line = (
-            select(work)
-            .where(work.c.state == "queued")
-            .order_by(work.c.priority, work.c.sequence)
-            .limit(1)
-        )
-        with self._database.reading() as connection:
-            if connection.execute(next_in_line).first() is None:
-                return None
-        with self._database.writing() as connection:
-            row = connection.execute(next_in_line).first()
+        with self._database.writing(durably=False) as connection:
+            row = connection.execute(_NEXT_IN_LINE).first()
             if row is None:
                 return None
             attempt = row.attempt + 1
@@ -78,7 +69,7 @@ class Claims:
     def report(self, claim: Claim, progress: float, stage: str) -> None:
         """Tell how far the work is."""
         news = {"progress": min(max(progress, 0.0), 1.0), "stage": stage[:64]}
-        with self._database.writing() as connection:
+        with self._database.writing(durably=False) as connection:
             _change(connection, claim, news)
 
     def succeed(
@@ -133,6 +124,9 @@ class Claims:
             return {row[0]: row[1] for row in rows}
 
 
+_NEXT_IN_LINE: Final = (
+    select(work).where(work.c.state == "queued").order_by(work.c.priority, work.c.sequence).limit(1)
+)
 _WAITING: Final[dict[str, Any]] = {
     "state": "queued",
     "progress": 0.0,

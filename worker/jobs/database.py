@@ -7,14 +7,13 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Final
 
-from sqlalchemy import Connection, create_engine, event
+from sqlalchemy import Connection, Engine, create_engine, event
 from sqlalchemy.exc import OperationalError
 
 from worker.jobs.errors import StorageFullError
 
 PRAGMAS: Final = (
     "journal_mode = WAL",
-    "synchronous = FULL",  # a job that was accepted survives a power cut
     "busy_timeout = 10000",
     "foreign_keys = ON",
 )
@@ -26,27 +25,30 @@ class Database:
     def __init__(self, path: Path) -> None:
         # SQLite's own wait for a lock sleeps up to 100 ms; in one process a lock is fair and wakes.
         self._write_lock = threading.Lock()
-        self._engine = create_engine(f"sqlite:///{path}", pool_size=8, max_overflow=56)
-        event.listen(self._engine, "connect", _prepare)
-        event.listen(self._engine, "begin", _begin)
-        self._writer = self._engine.execution_options(begin="BEGIN IMMEDIATE")
+        self._readers = _engine(path, "FULL", "BEGIN")
+        self._writer = _engine(path, "FULL", "BEGIN IMMEDIATE")
+        self._quick_writer = _engine(path, "NORMAL", "BEGIN IMMEDIATE")
 
     @contextmanager
     def reading(self) -> Iterator[Connection]:
         """One consistent view of the records."""
-        with self._engine.begin() as connection:
+        with self._readers.begin() as connection:
             yield connection
 
     @contextmanager
-    def writing(self) -> Iterator[Connection]:
-        """One transaction, durable when the block ends and undone when it raises.
+    def writing(self, *, durably: bool = True) -> Iterator[Connection]:
+        """One transaction, on the disk when the block ends and undone when it raises.
+
+        Args:
+            durably: otherwise the next durable one takes it to the disk, and a power cut before
+                that undoes it; no crash of a process does.
 
         Raises:
             StorageFullError: the disk is full; nothing was changed.
         """
         with self._write_lock:
             try:
-                with self._writer.begin() as connection:
+                with (self._writer if durably else self._quick_writer).begin() as connection:
                     yield connection
             except OperationalError as error:
                 if getattr(error.orig, "sqlite_errorcode", None) == sqlite3.SQLITE_FULL:
@@ -55,14 +57,21 @@ class Database:
 
     def close(self) -> None:
         """Close every connection; the last one folds the write-ahead log into the database."""
-        self._engine.dispose()
+        for engine in (self._readers, self._quick_writer, self._writer):
+            engine.dispose()
 
 
-def _prepare(connection: Any, _record: object) -> None:
-    connection.isolation_level = None  # sqlite3 would begin by itself, and too late
-    for pragma in PRAGMAS:
-        connection.execute(f"PRAGMA {pragma}")
+def _engine(path: Path, synchronous: str, begin: str) -> Engine:
+    engine = create_engine(f"sqlite:///{path}", pool_size=8, max_overflow=56)
 
+    @event.listens_for(engine, "connect")
+    def prepare(connection: Any, _record: object) -> None:
+        connection.isolation_level = None  # sqlite3 would begin by itself, and too late
+        for pragma in (*PRAGMAS, f"synchronous = {synchronous}"):
+            connection.execute(f"PRAGMA {pragma}")
 
-def _begin(connection: Connection) -> None:
-    connection.exec_driver_sql(connection.get_execution_options().get("begin", "BEGIN"))
+    @event.listens_for(engine, "begin")
+    def begin_at_once(connection: Connection) -> None:
+        connection.exec_driver_sql(begin)
+
+    return engine

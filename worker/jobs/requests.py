@@ -75,12 +75,12 @@ class Requests:
                     created=now,
                 )
             )
-            row = connection.execute(_jobs_with_work().where(jobs.c.id == job_id)).one()
+            row = connection.execute(_JOBS.where(jobs.c.id == job_id)).one()
         return _job(row)
 
     def get(self, tenant: str, job_id: str) -> Job | None:
         """One job of the tenant."""
-        query = _jobs_with_work().where(jobs.c.tenant == tenant, jobs.c.id == job_id)
+        query = _JOBS.where(jobs.c.tenant == tenant, jobs.c.id == job_id)
         with self._database.reading() as connection:
             row = connection.execute(query).first()
         return None if row is None else _job(row)
@@ -93,7 +93,7 @@ class Requests:
         Raises:
             ValueError: the cursor is not hexadecimal (see CURSOR_PATTERN).
         """
-        query = _jobs_with_work().where(jobs.c.tenant == tenant)
+        query = _JOBS.where(jobs.c.tenant == tenant)
         if cursor is not None:
             query = query.where(jobs.c.sequence < min(int(cursor, 16), LARGEST_SEQUENCE))
         if state == "cancelled":
@@ -111,7 +111,7 @@ class Requests:
         is_this = and_(jobs.c.tenant == tenant, jobs.c.id == job_id)
         now = time.time()
         with self._database.writing() as connection:
-            row = connection.execute(_jobs_with_work().where(is_this)).first()
+            row = connection.execute(_JOBS.where(is_this)).first()
             if row is None:
                 return None
             if _job(row).state in ("queued", "running"):
@@ -125,32 +125,26 @@ class Requests:
                         .where(work.c.id == row.work_id)
                         .values(state="cancelled", stage=None, finished=now)
                     )
-            row = connection.execute(_jobs_with_work().where(is_this)).one()
+            row = connection.execute(_JOBS.where(is_this)).one()
         return _job(row)
 
     def _joinable(self, connection: Connection, request: Request) -> str | None:
         """The id of work of the same tenant and digest that is under way or has a good result."""
         same = and_(work.c.tenant == request.tenant, work.c.digest == request.digest)
-        live = connection.execute(
-            select(work.c.id).where(same, work.c.state.in_(("queued", "running")))
-        ).scalar()
-        if live is not None:
-            urgency = PRIORITIES.index(request.priority)
-            connection.execute(
-                update(work)
-                .where(work.c.id == live, work.c.priority > urgency)
-                .values(priority=urgency)
-            )
-            return str(live)
-        done = connection.execute(
-            select(work.c.id, work.c.fingerprint)
-            .where(same, work.c.state == "succeeded")
+        newest = connection.execute(
+            select(work.c.id, work.c.state, work.c.priority, work.c.fingerprint)
+            .where(same, work.c.state.in_(("queued", "running", "succeeded")))
             .order_by(work.c.sequence.desc())
             .limit(1)
         ).first()
-        if done is not None and self._is_reusable(done.id, done.fingerprint):
-            return str(done.id)
-        return None
+        if newest is None:
+            return None
+        if newest.state == "succeeded":
+            return newest.id if self._is_reusable(newest.id, newest.fingerprint) else None
+        urgency = PRIORITIES.index(request.priority)
+        if urgency < newest.priority:
+            connection.execute(update(work).where(work.c.id == newest.id).values(priority=urgency))
+        return str(newest.id)
 
     def _require_room(self, connection: Connection) -> None:
         waiting = connection.execute(
@@ -224,6 +218,9 @@ def _jobs_with_work() -> Select[Any]:
         *(work.c[name] for name in ("started", "finished", "failure", "facts")),
         case((work.c.state == "queued", in_front)).label("in_front"),
     ).join(work, work.c.id == jobs.c.work_id)
+
+
+_JOBS: Final = _jobs_with_work()
 
 
 def _job(row: Row[Any]) -> Job:

@@ -112,7 +112,7 @@ class SlotThread(threading.Thread):
             "digest": claim.digest,
             "assets": str(self._desk.assets.folder),
         }
-        next_report = 0.0
+        next_report = time.monotonic() + REPORT_SECONDS  # short work is not worth a write
 
         def report(progress: float, stage: str) -> None:
             nonlocal next_report

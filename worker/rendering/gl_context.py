@@ -8,6 +8,7 @@ import atexit
 import os
 import threading
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
@@ -53,6 +54,8 @@ class GLContext:
         Raises:
             RenderError: The platform gives no context, or one without clip control (OpenGL 4.5).
         """
+        if cache := os.environ.get("MESA_SHADER_CACHE_DIR"):
+            Path(cache).mkdir(parents=True, exist_ok=True)  # Mesa makes no parents and does without
         platform = _new_platform()
         platform.init_context()
         platform.make_current()

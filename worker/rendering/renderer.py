@@ -2,18 +2,22 @@
 
 import functools
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
+from api_schemas.families import TextureSpec
+from api_schemas.language import FAMILIES
 from api_schemas.output import RenderOutput
 from api_schemas.scene import Scene
-from worker.images.image import Image
+from worker.images.image import Image, Meaning
 from worker.rendering.gl_context import GLContext
 from worker.rendering.lighting import light_uniforms
 from worker.rendering.pyrender_adapter import FloatRenderer, pyrender_scene
 from worker.rendering.scene_builder import SceneBuilder, TextureMaker
+from worker.rendering.shading import surface_fields
 from worker.rendering.targets import TargetPair
 from worker.rendering.tiles import pixels_per_tile, tile_from_picture, tiles
 
@@ -102,3 +106,38 @@ def render(scene: Scene, output: RenderOutput, textures: TextureMaker, report: R
 def fingerprint() -> str:
     """Name the OpenGL implementation that decides the pixels."""
     return _engine().context.fingerprint()
+
+
+def warm(report: Report) -> None:
+    """Draw every surface plain and with one map in each colour, so that nothing is left to compile.
+
+    What is compiled here also fills Mesa's cache on disk, which later processes find.
+    """
+    output = RenderOutput(size=[16, 16], supersampling=2)
+    surfaces = list(_typical())
+    for done, surface in enumerate(surfaces):
+        report(done / len(surfaces), f"compile {surface['technique']}")
+        render(_poster(surface), output, _grey, lambda fraction, stage: None)
+    report(1.0, "compile")
+
+
+def _typical() -> Iterator[dict[str, Any]]:
+    texture = {"technique": "constant", "value": [0.5, 0.5, 0.5]}
+    for technique in FAMILIES["surfaces"]:
+        yield {"technique": technique}
+        for name, kind in surface_fields(technique).items():
+            if kind == "vec3":
+                yield {"technique": technique, name: {"texture": texture}}
+
+
+def _poster(surface: dict[str, Any]) -> Scene:
+    return Scene.model_validate(
+        {
+            "camera": {"type": "orthographic", "pose": {"eye": [0.0, 0.0, 2.0]}},
+            "nodes": [{"mesh": {"type": "plane"}, "surface": surface}],
+        }
+    )
+
+
+def _grey(spec: TextureSpec, meaning: Meaning) -> Image:
+    return Image(np.full((2, 2, 3), 0.5, dtype=np.float32), meaning)

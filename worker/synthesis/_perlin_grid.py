@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 # Long rows are written fastest; the pixels of a block stay in the second-level cache while the
 # octaves are added up.
 BLOCK_WIDTH = 2048
-BLOCK_HEIGHT = 64
+BLOCK_HEIGHT = 128
 
 
 class AxisTable(NamedTuple):

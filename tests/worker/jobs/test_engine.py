@@ -63,10 +63,10 @@ def test_a_result_of_another_platform_is_made_again(make_engine, submit, wait_un
 
 
 def test_progress_and_stage_are_seen_while_it_runs(engine, submit, wait_until):
-    job = submit(engine, do="sleep", seconds=1.0)
-    running = wait_until(lambda: (now := engine.get("local", job.id)).progress > 0.2 and now)
+    job = submit(engine, do="sleep", seconds=20.0)
+    running = wait_until(lambda: (now := engine.get("local", job.id)).progress > 0.02 and now)
     assert (running.state, running.stage) == ("running", "sleeping")
-    assert 0.2 < running.progress < 1
+    assert 0.02 < running.progress < 1
 
 
 def test_waiting_ends_with_the_job_or_the_time(engine, submit):
@@ -101,12 +101,14 @@ def test_waiting_ends_with_a_cancellation(engine, submit, begin):
     assert engine.get("local", other.id).state == "running"
 
 
-def test_jobs_wait_their_turn_and_know_their_place(engine, submit, begin, finish):
-    begin(engine, submit(engine, do="sleep", seconds=0.5))
+def test_jobs_wait_their_turn_and_know_their_place(engine, submit, begin, finish, tmp_path):
+    gate = tmp_path / "gate"
+    begin(engine, submit(engine, do="wait", gate=str(gate)))
     batch = submit(engine, do="nothing", priority="batch")
     interactive = submit(engine, do="nothing")
     assert engine.get("local", batch.id).position == 2
     assert interactive.position == 1
+    gate.touch()
     batch, interactive = finish(engine, batch), finish(engine, interactive)
     assert interactive.finished <= batch.started
 

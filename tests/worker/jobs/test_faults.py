@@ -65,18 +65,24 @@ def test_cancelling_ends_a_stuck_native_call(engine, submit, finish, wait_until,
 
 
 def test_cancelling_a_waiting_job_means_that_it_never_runs(engine, submit, begin, finish, tmp_path):
-    begin(engine, submit(engine, do="sleep", seconds=0.3))
+    gate = tmp_path / "gate"
+    begin(engine, submit(engine, do="wait", gate=str(gate)))
     job = submit(engine, do="nothing", note_pid=str(tmp_path / "note"))
     last = submit(engine, do="nothing")
     engine.cancel("local", job.id)
+    gate.touch()
     finish(engine, last)
     assert engine.get("local", job.id).state == "cancelled"
     assert not (tmp_path / "note").exists()
 
 
-def test_cancelling_one_of_two_lets_the_other_have_the_result(engine, submit, begin, finish):
-    one, two = (submit(engine, "d" * 64, do="sleep", seconds=0.4) for _ in range(2))
+def test_cancelling_one_of_two_lets_the_other_have_the_result(
+    engine, submit, begin, finish, tmp_path
+):
+    gate = tmp_path / "gate"
+    one, two = (submit(engine, "d" * 64, do="wait", gate=str(gate)) for _ in range(2))
     engine.cancel("local", begin(engine, one).id)
+    gate.touch()
     assert finish(engine, two).state == "succeeded"
     assert engine.get("local", one.id).state == "cancelled"
 
@@ -100,15 +106,14 @@ def test_a_disk_that_is_full_in_the_child_is_told(engine, submit, finish):
 
 
 def test_a_disk_that_is_full_while_publishing_is_told(
-    engine, submit, begin, finish, monkeypatch, tmp_path
+    engine, submit, finish, monkeypatch, tmp_path
 ):
     def fail(descriptor):
         raise OSError(28, "No space left on device")
 
-    job = begin(engine, submit(engine, do="sleep", seconds=0.3))
     with monkeypatch.context() as patch:
         patch.setattr(files.os, "fsync", fail)
-        failed = finish(engine, job)
+        failed = finish(engine, submit(engine, do="nothing"))
     assert failed.failure["code"] == "storage_full"
     assert list((tmp_path / "data" / "results").iterdir()) == []
     assert finish(engine, submit(engine, do="nothing")).state == "succeeded"
@@ -135,18 +140,20 @@ def test_progress_that_cannot_be_recorded_costs_nothing(engine, submit, finish, 
         raise StorageFullError
 
     monkeypatch.setattr(Claims, "report", refuse)
-    assert finish(engine, submit(engine, do="sleep", seconds=0.1)).state == "succeeded"
+    assert finish(engine, submit(engine, do="sleep", seconds=0.6)).state == "succeeded"
 
 
 def test_assets_that_were_deleted_under_running_work_go_with_its_end(
     engine, submit, finish, wait_until, tmp_path
 ):
+    gate = tmp_path / "gate"
     upload = engine.assets.new_upload()
     upload.write_bytes(b"picture")
     engine.assets.put("local", upload, "a" * 64, {})
-    job = submit(engine, do="sleep", seconds=0.3, asset="a" * 64)
+    job = submit(engine, do="wait", gate=str(gate), asset="a" * 64)
     engine.assets.delete("local", "a" * 64)
     path = tmp_path / "data" / "assets" / "aa" / ("a" * 64)
     assert path.exists()
+    gate.touch()
     finish(engine, job)
     wait_until(lambda: not path.exists(), 5)

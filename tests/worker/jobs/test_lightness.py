@@ -23,6 +23,14 @@ def test_the_engine_loads_no_native_code():
     assert loaded_by("worker.jobs.engine", NATIVE) == ""
 
 
+def test_a_child_of_a_forkserver_that_was_not_prepared_says_so():
+    script = "from worker.jobs.child import become_expendable; become_expendable()"
+    told = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, check=True
+    )
+    assert "worker.jobs.preload was not loaded" in told.stderr
+
+
 @pytest.mark.parametrize("module", ["worker.jobs.preload", "worker.jobs.slot"])
 def test_a_child_starts_without_the_records(module):
     assert loaded_by(module, f"{NATIVE} sqlalchemy alembic asyncio") == ""

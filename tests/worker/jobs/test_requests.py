@@ -150,11 +150,12 @@ def test_a_full_queue_refuses_new_work_only(requests, claims):
 
 def test_retry_after_is_what_recent_work_took(requests, claims, monkeypatch):
     """Two slots and 30 s each: a place comes free every 15 s."""
-    clock = iter([1000.0, 1000.0, 1030.0])
     with monkeypatch.context() as patch:
-        patch.setattr(time, "time", lambda: next(clock))
+        patch.setattr(time, "time", lambda: 1000.0)
         requests.submit(request("v"))
-        succeed(claims)
+        claim = claims.claim()
+        patch.setattr(time, "time", lambda: 1030.0)
+        claims.succeed(claim, {}, "here", lambda: None)
     for digest in "xyz":
         requests.submit(request(digest))
     with pytest.raises(QueueFullError) as refusal:

@@ -91,3 +91,15 @@ def test_signals_to_the_whole_group_leave_draining_to_the_service(
     service.send_signal(signal.SIGTERM)
     assert service.stdout.readline().strip() == "succeeded 1"
     assert service.wait(10) == 0
+
+
+def test_a_child_does_not_load_the_main_module_of_its_service(
+    start_service, make_engine, wait_until, tmp_path
+):
+    service = start_service("describe")
+    job_id = service.stdout.readline().strip()
+    wait_until((tmp_path / "data" / "pids").exists)
+    service.send_signal(signal.SIGTERM)
+    assert service.stdout.readline().strip() == "succeeded 1"
+    service.wait(10)
+    assert make_engine().get("local", job_id).facts["loaded"] == []

@@ -171,3 +171,19 @@ def test_the_finest_octaves_of_the_language_are_survived():
 
     assert (pixels == 0.5).all()
     assert np.isfinite(noise_at(extreme, *centres((8, 8)))).all()
+
+
+def test_an_octave_is_its_own_slice_of_the_noise_moved_by_its_own_shift():
+    u, v = np.random.default_rng(3).random((2, 200))
+    fields = {"frequency": 128, "gain": 0.25, "gradients": "reference", "range": "signed"}
+
+    first = noise_at(spec(**fields), u, v)
+    both = noise_at(spec(octaves=2, **fields), u, v)
+
+    table = permutation(0)
+    # One step of the R2 sequence in 256ths; the period is that of the noise in space
+    second = [
+        noise3(x, y, 1.0, table)
+        for x, y in zip(256 * u + 193 / 256, 256 * v + 145 / 256, strict=True)
+    ]
+    assert both * 1.25 == pytest.approx(first + 0.25 * np.array(second), abs=1e-12)

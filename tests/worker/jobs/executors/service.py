@@ -19,6 +19,7 @@ def main():
         "marker": str(data / "marker"),
         "note_pid": str(data / "pids"),
         "seconds": 1.0,
+        "variables": [],
     }
     job = engine.submit("texture", body, "d" * 64, tenant="local")
     sys.stdout.write(f"{job.id}\n")

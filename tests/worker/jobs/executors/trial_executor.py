@@ -62,6 +62,18 @@ def _sleep(body, out, report):
         time.sleep(min(left, 0.02))
 
 
+def _burn(body, out, report):
+    end = time.monotonic() + body["seconds"]
+    while time.monotonic() < end:
+        pass
+
+
+def _wait(body, out, report):
+    """Until the test opens the gate."""
+    while not Path(body["gate"]).exists():
+        time.sleep(0.005)
+
+
 def _sleep_once(body, out, report):
     """Slow the first time, quick when repeated."""
     marker = Path(body["marker"])
@@ -133,6 +145,8 @@ _DO = {
     "nothing": _nothing,
     "describe": _describe,
     "sleep": _sleep,
+    "burn": _burn,
+    "wait": _wait,
     "sleep once": _sleep_once,
     "stuck once": _stuck_once,
     "segfault": _segfault,

@@ -1,0 +1,84 @@
+"""A small studio: pictures as textures, scenes as dictionaries, pixels back."""
+
+import hashlib
+import json
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from api_schemas.output import RenderOutput
+from api_schemas.scene import Scene
+from worker.images.image import Image
+
+Pixels = NDArray[np.float32]
+
+
+class Studio:
+    """Draws scenes whose textures are arrays."""
+
+    def __init__(self, render: Callable[..., Any]) -> None:
+        self._render = render
+        self._arrays: dict[str, Pixels] = {}
+        self.facts: dict[str, Any] = {}
+        self.reports: list[tuple[float, str]] = []
+
+    def texture(self, array: Any) -> dict[str, Any]:
+        """Make a texture spec of an array (height, width) or (height, width, channels)."""
+        pixels = np.ascontiguousarray(array, dtype=np.float32)
+        if pixels.ndim == 2:
+            pixels = pixels[:, :, None]
+        name = hashlib.sha256(repr(pixels.shape).encode() + pixels.tobytes()).hexdigest()
+        self._arrays[name] = pixels
+        return {"technique": "image", "asset": name}
+
+    def array(self, texture: dict[str, Any]) -> Pixels:
+        """The array of a texture spec."""
+        return self._arrays[texture["asset"]]
+
+    def draw(
+        self, scene: dict[str, Any], size: tuple[int, int] = (32, 32), supersampling: int = 1
+    ) -> Pixels:
+        """Draw a scene given as JSON; float32 (height, width, 4)."""
+        rendering = self._render(
+            Scene.model_validate_json(json.dumps(scene)),
+            RenderOutput(size=list(size), supersampling=supersampling),
+            lambda spec, meaning: Image(self._arrays[spec.asset], meaning),
+            lambda fraction, stage: self.reports.append((fraction, stage)),
+        )
+        self.facts = rendering.facts
+        return rendering.image.pixels
+
+    def poster(
+        self, surface: dict[str, Any], size: tuple[int, int] = (32, 32), **more: Any
+    ) -> Pixels:
+        """Draw a surface on a square that fills the picture: v = n, uv = the pixel's place."""
+        return self.draw(
+            {
+                "camera": {
+                    "type": "orthographic",
+                    "height": 2.0,
+                    "pose": {"eye": [0.0, 0.0, 2.0]},
+                },
+                "lights": more.get("lights", []),
+                "nodes": [
+                    {
+                        "mesh": {"type": "plane", "width": 2.0 * size[0] / size[1]},
+                        "transform": more.get("transform", {}),
+                        "surface": surface,
+                    }
+                ],
+            },
+            size,
+            more.get("supersampling", 1),
+        )
+
+    def read(self, picture: dict[str, Any], u: float, v: float, **how: Any) -> Pixels:
+        """Read a texture at one place with no footprint, as a colour."""
+        mapped = {
+            "texture": picture,
+            "transform": {"scale": [0.0, 0.0], "offset": [u, v]},
+            **how,
+        }
+        return self.poster({"technique": "unlit", "color": mapped}, (1, 1))[0, 0]
