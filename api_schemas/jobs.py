@@ -2,7 +2,7 @@
 
 from typing import Annotated, Literal
 
-from pydantic import AwareDatetime, Field, JsonValue
+from pydantic import AwareDatetime, Field
 
 from api_schemas.base import NonNegative, Schema, Sha256
 from api_schemas.problems import CostFigures, JobFailure, Obstruction

@@ -43,6 +43,7 @@ def main() -> int:
     logging.basicConfig(
         level=settings.log_level.upper(), format="%(asctime)s %(levelname)s %(name)s: %(message)s"
     )
+    logging.getLogger("alembic").setLevel(logging.WARNING)
     start_forkserver()
     engine = make_engine(settings)
     config = uvicorn.Config(

@@ -1,6 +1,7 @@
 """The real app with the real engine, whose executor makes pictures of one pixel."""
 
 import sys
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -34,6 +35,8 @@ def engine(forkserver: None, tmp_path_factory: pytest.TempPathFactory) -> Iterat
         measurer="toy_measurer",
     )
     engine.start()
+    while engine.ready().warm_slots < engine.ready().slots:
+        time.sleep(0.01)
     yield engine
     engine.drain(0)
 

@@ -71,6 +71,14 @@ def test_a_key_called_like_a_union_member_is_still_a_key():
     }
 
 
+def test_a_mistake_in_a_texture_within_a_texture_is_told_once():
+    spec = {"technique": "perlin", "frequency": "x"}
+    for _ in range(3):
+        spec = {"technique": "ramp", "input": spec, "stops": [{"position": 0, "color": [1, 1, 1]}]}
+
+    assert texture(spec) == {"/texture/input/input/input/frequency": "wrong_type"}
+
+
 def test_an_unknown_or_missing_technique_is_told_at_its_key():
     assert texture({"technique": "marble"}) == {"/texture/technique": "not_a_choice"}
     assert texture({"technique": 3}) == {"/texture/technique": "not_a_choice"}

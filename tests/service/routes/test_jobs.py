@@ -50,7 +50,8 @@ def test_a_job_tells_what_it_made(client, done):
     assert done["state"] == "succeeded"
     assert done["progress"] == 1
     assert done["result"]["media_type"] == "image/png"
-    assert done["result"]["timings"] == {"make": 0.001}
+    assert done["result"]["timings"] == {"make": 0.5}
+    assert done["result"]["counts"] == {"pixels": 256}
     assert done["started"] <= done["finished"]
     assert client.get(done["links"]["self"]).json() == done
 
