@@ -23,9 +23,11 @@ class Result(Schema):
     sha256: Sha256 = Field(description="SHA-256 of its bytes; also its ETag.")
     width: Annotated[int, Field(ge=1)] = Field(description="Pixels from left to right.")
     height: Annotated[int, Field(ge=1)] = Field(description="Pixels from top to bottom.")
-    timings: dict[str, NonNegative] = Field(default={}, description="Where the time went, by step.")
-    warnings: list[JsonValue] = Field(
-        default=[], description="What was done differently from what one might expect."
+    timings: dict[str, NonNegative] = Field(
+        default={}, description="Where the time went: milliseconds by step."
+    )
+    counts: dict[str, Annotated[int, Field(ge=0)]] = Field(
+        default={}, description="What was drawn: triangles, programs compiled and so on."
     )
 
 
