@@ -2,7 +2,7 @@
 
 from typing import Annotated, Literal
 
-from pydantic import AwareDatetime, Field, JsonValue
+from pydantic import AwareDatetime, Field
 
 from api_schemas.base import NonNegative, Schema, Sha256
 from api_schemas.problems import CostFigures, JobFailure, Obstruction
@@ -23,9 +23,11 @@ class Result(Schema):
     sha256: Sha256 = Field(description="SHA-256 of its bytes; also its ETag.")
     width: Annotated[int, Field(ge=1)] = Field(description="Pixels from left to right.")
     height: Annotated[int, Field(ge=1)] = Field(description="Pixels from top to bottom.")
-    timings: dict[str, NonNegative] = Field(default={}, description="Where the time went, by step.")
-    warnings: list[JsonValue] = Field(
-        default=[], description="What was done differently from what one might expect."
+    timings: dict[str, NonNegative] = Field(
+        default={}, description="Where the time went: milliseconds by step."
+    )
+    counts: dict[str, Annotated[int, Field(ge=0)]] = Field(
+        default={}, description="What was drawn: triangles, programs compiled and so on."
     )
 
 
@@ -54,7 +56,9 @@ class Job(Schema):
     progress: Annotated[float, Field(ge=0, le=1)] = Field(description="From 0 to 1.")
     stage: str | None = Field(description="What is being done, while running.")
     created: AwareDatetime = Field(description="When the request arrived.")
-    started: AwareDatetime | None = Field(description="When the work began.")
+    started: AwareDatetime | None = Field(
+        description="When the work began: before the request, where an equal one had been made."
+    )
     finished: AwareDatetime | None = Field(description="When the job ended, however it ended.")
     result: Result | None = Field(description="The finished file, when succeeded.")
     failure: JobFailure | None = Field(description="What went wrong, when failed.")

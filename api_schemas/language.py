@@ -11,7 +11,8 @@ from operator import or_
 from types import ModuleType
 from typing import TYPE_CHECKING, Annotated, Any, TypeAlias, get_args
 
-from pydantic import Discriminator, Field, Tag
+from pydantic import Discriminator, GetCoreSchemaHandler, Tag
+from pydantic_core import core_schema
 from typing_extensions import TypeAliasType
 
 from api_schemas import coordinates, surfaces, textures
@@ -64,6 +65,23 @@ def _mappable(value: Any, mapped: type[Map]) -> Any:
     ]
 
 
+class _ByTechnique:
+    """Chooses a member of a family by its technique.
+
+    The same as a discriminator in a Field, which pydantic loses where a spec that is still being
+    built holds its own family: there it would try every member and tell the mistakes of all.
+    """
+
+    def __init__(self, members: dict[str, type[TechniqueSpec]]) -> None:
+        self._members = members
+
+    def __get_pydantic_core_schema__(
+        self, _source: object, handler: GetCoreSchemaHandler
+    ) -> core_schema.CoreSchema:
+        choices = {name: handler.generate_schema(spec) for name, spec in self._members.items()}
+        return core_schema.tagged_union_schema(choices, discriminator="technique")
+
+
 if TYPE_CHECKING:
     Texture: TypeAlias = TextureSpec
     Coordinates: TypeAlias = CoordinatesSpec
@@ -74,8 +92,8 @@ if TYPE_CHECKING:
 else:
 
     def _one_of(name, family):
-        union = reduce(or_, FAMILIES[family].values())
-        return TypeAliasType(name, Annotated[union, Field(discriminator="technique")])
+        members = FAMILIES[family]
+        return TypeAliasType(name, Annotated[reduce(or_, members.values()), _ByTechnique(members)])
 
     Texture = _one_of("Texture", "textures")
     Coordinates = _one_of("Coordinates", "coordinates")

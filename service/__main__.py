@@ -6,10 +6,10 @@ import threading
 from types import FrameType
 
 import uvicorn
+from fastapi import FastAPI
 
 from service.app import create_app, make_engine
 from service.settings import Settings
-from worker.jobs.engine import EmbeddedEngine
 from worker.jobs.errors import DataFolderInUseError
 from worker.jobs.forkserver import start_forkserver
 
@@ -17,10 +17,9 @@ from worker.jobs.forkserver import start_forkserver
 class Server(uvicorn.Server):
     """Goes on answering while the engine drains: the first signal drains, the second one ends."""
 
-    def __init__(self, config: uvicorn.Config, engine: EmbeddedEngine, patience: float) -> None:
+    def __init__(self, config: uvicorn.Config, app: FastAPI) -> None:
         super().__init__(config)
-        self._engine = engine
-        self._patience = patience
+        self._state = app.state
         self._drain: threading.Thread | None = None
 
     def handle_exit(self, sig: int, frame: FrameType | None) -> None:
@@ -30,7 +29,8 @@ class Server(uvicorn.Server):
             return
 
         def drain() -> None:
-            self._engine.drain(self._patience)
+            self._state.engine.drain(self._state.settings.drain_seconds)
+            self._state.drained.set()
             self.should_exit = True
 
         self._drain = threading.Thread(target=drain, name="drain")
@@ -43,10 +43,12 @@ def main() -> int:
     logging.basicConfig(
         level=settings.log_level.upper(), format="%(asctime)s %(levelname)s %(name)s: %(message)s"
     )
+    logging.getLogger("alembic").setLevel(logging.WARNING)
     start_forkserver()
     engine = make_engine(settings)
+    app = create_app(settings, engine)
     config = uvicorn.Config(
-        create_app(settings, engine),
+        app,
         host=settings.host,
         port=settings.port,
         log_level=settings.log_level,
@@ -54,7 +56,7 @@ def main() -> int:
         server_header=False,
         timeout_graceful_shutdown=5,
     )
-    server = Server(config, engine, settings.drain_seconds)
+    server = Server(config, app)
     socket = config.bind_socket()
     try:
         engine.start()

@@ -1,5 +1,6 @@
 """Wires settings, engine, routes and refusals into one app."""
 
+import threading
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from functools import partial
@@ -55,6 +56,7 @@ def create_app(settings: Settings, engine: EmbeddedEngine | None = None) -> Fast
     )
     app.state.settings = settings
     app.state.engine = engine
+    app.state.drained = threading.Event()
     app.state.measuring = CapacityLimiter(MEASURED_AT_ONCE)
     for resource in (textures, renders, validate, jobs, assets, techniques, health):
         app.include_router(resource.router)

@@ -4,7 +4,7 @@ import hashlib
 import inspect
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Final
+from typing import Any, Final
 
 from api_schemas.base import Schema
 from api_schemas.families import TechniqueSpec, TextureSpec
@@ -60,7 +60,7 @@ def _technique(family: str, name: str, spec: type[TechniqueSpec]) -> Technique:
         equation=spec.equation,
         revision=spec.revision,
         sized=spec.sized if issubclass(spec, TextureSpec) else None,
-        parameters=spec.model_json_schema(),
+        parameters=_parameters(spec),
         examples=[
             body
             for kind, model in REQUESTS.items()
@@ -68,6 +68,14 @@ def _technique(family: str, name: str, spec: type[TechniqueSpec]) -> Technique:
             if any(isinstance(part, spec) for _, part in parts(model.model_validate(body)))
         ],
     )
+
+
+def _parameters(spec: type[TechniqueSpec]) -> dict[str, Any]:
+    """Return a schema whose top is the technique itself, also where it may hold itself."""
+    schema = spec.model_json_schema()
+    if "$ref" in schema:
+        return {**schema["$defs"][spec.__name__], "$defs": schema["$defs"]}
+    return schema
 
 
 def _description(spec: type[TechniqueSpec]) -> str:

@@ -1,5 +1,8 @@
 """The way of a request for a picture: settle, admit, submit, perhaps wait, answer."""
 
+import asyncio
+from typing import Final
+
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
 from starlette.responses import Response
@@ -16,6 +19,8 @@ from service.stored_files import stored_file
 from worker.jobs.engine import EmbeddedEngine
 from worker.jobs.job import FINAL_STATES, Job
 
+LONGEST_NAP_SECONDS: Final = 1.0
+
 
 async def submitted(
     request: Request,
@@ -31,13 +36,25 @@ async def submitted(
     """
     wished = wish(request, body.output.format, settings.wait_seconds)
     job = await run_in_threadpool(_submit, body, wished, engine, settings, tenant)
-    if wished.wait_seconds and job.state not in FINAL_STATES:
-        job = await engine.finished(tenant, job.id, wished.wait_seconds) or job
+    job = await waited(request, job, wished.wait_seconds, engine)
     applied = {"Preference-Applied": wished.applied} if wished.applied else {}
     if wished.picture and job.state in FINAL_STATES:
         require_succeeded(job)
         return await run_in_threadpool(picture, request, job, engine, applied)
     return job_answer(job, 200 if job.state in FINAL_STATES else 202, applied)
+
+
+async def waited(request: Request, job: Job, seconds: float, engine: EmbeddedEngine) -> Job:
+    """Return a job as soon as it is finished, the time is up, or the service is about to end."""
+    loop = asyncio.get_running_loop()
+    deadline = loop.time() + seconds
+    drained = request.app.state.drained
+    while job.state not in FINAL_STATES and not drained.is_set():
+        patience = min(deadline - loop.time(), LONGEST_NAP_SECONDS)
+        if patience <= 0:
+            break
+        job = await engine.finished(job.tenant, job.id, patience) or job
+    return job
 
 
 def job_answer(job: Job, status: int, headers: dict[str, str]) -> Response:

@@ -27,7 +27,7 @@ from service.engine_access import Engine
 from service.job_views import job_url, require_succeeded, result, view
 from service.negotiation import patience, require_accepted
 from service.problems import ProblemError
-from service.submission import job_answer, picture
+from service.submission import job_answer, picture, waited
 from service.tenants import Tenant
 from worker.jobs import job as records
 from worker.jobs.engine import EmbeddedEngine
@@ -88,8 +88,7 @@ async def get_job(request: Request, job_id: JobId, engine: Engine, tenant: Tenan
     """How far it is; `Prefer: wait=N` waits for its end."""
     job = await run_in_threadpool(find, engine, tenant, job_id)
     seconds, applied = patience(request, 0)
-    if seconds and job.state not in records.FINAL_STATES:
-        job = await engine.finished(tenant, job.id, seconds) or job
+    job = await waited(request, job, seconds, engine)
     return job_answer(job, 200, {"Preference-Applied": applied} if applied else {})
 
 

@@ -1,7 +1,8 @@
 """The real app with the real engine, whose executor makes pictures of one pixel."""
 
 import sys
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -34,6 +35,8 @@ def engine(forkserver: None, tmp_path_factory: pytest.TempPathFactory) -> Iterat
         measurer="toy_measurer",
     )
     engine.start()
+    while engine.ready().warm_slots < engine.ready().slots:
+        time.sleep(0.01)
     yield engine
     engine.drain(0)
 
@@ -52,3 +55,24 @@ def app(engine: EmbeddedEngine, settings: Settings):
 def client(app) -> Iterator[TestClient]:
     with TestClient(app, raise_server_exceptions=False, follow_redirects=False) as client:
         yield client
+
+
+@pytest.fixture
+def make_client(forkserver: None, tmp_path: Path) -> Iterator[Callable[..., TestClient]]:
+    """Makes clients of services with engines of their own."""
+    started = []
+
+    def make(**options: int) -> TestClient:
+        engine = EmbeddedEngine(
+            tmp_path / f"data{len(started)}",
+            executor="toy_executor",
+            measurer="toy_measurer",
+            **options,
+        )
+        engine.start()
+        started.append(engine)
+        return TestClient(create_app(Settings(), engine), raise_server_exceptions=False)
+
+    yield make
+    for engine in started:
+        engine.drain(0)

@@ -1,0 +1,7 @@
+"""Takes a minute to become warm."""
+
+import time
+
+
+def warm(report):
+    time.sleep(60)

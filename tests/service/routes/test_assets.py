@@ -1,0 +1,197 @@
+import hashlib
+import os
+
+import pytest
+
+from service.tenants import tenant
+
+
+def picture():
+    """A new upload that the measurer takes."""
+    return b"\x89PNG" + os.urandom(8)
+
+
+@pytest.fixture
+def asset(client):
+    content = picture()
+    return content, client.post("/v1/assets", content=content).headers["location"]
+
+
+def image_request(sha256):
+    return {"texture": {"technique": "image", "asset": sha256}, "output": {"size": [16, 16]}}
+
+
+@pytest.mark.parametrize(
+    "media_type", ["image/png", "image/jpeg", "application/octet-stream", None]
+)
+def test_a_bare_upload_is_named_by_its_hash(client, media_type):
+    content = picture()
+    headers = {"Content-Type": media_type} if media_type else {}
+    response = client.post("/v1/assets", content=content, headers=headers)
+    sha256 = hashlib.sha256(content).hexdigest()
+
+    assert response.status_code == 201
+    assert response.headers["location"] == f"/v1/assets/{sha256}"
+    assert response.json() == {
+        "sha256": sha256,
+        "kind": "image",
+        "media_type": "image/png",
+        "format": "png",
+        "bytes": len(content),
+        "width": 1,
+        "height": 1,
+        "channels": 1,
+        "bits": 8,
+        "float": False,
+        "has_alpha": False,
+    }
+
+
+def test_a_second_upload_is_told_so(client, asset):
+    content, location = asset
+    again = client.post("/v1/assets", content=content)
+
+    assert (again.status_code, again.headers["location"]) == (200, location)
+
+
+def test_a_browsers_form_is_the_same_upload(client):
+    content = picture()
+    response = client.post("/v1/assets", files={"file": ("../../etc/passwd", content, "text/html")})
+
+    assert response.status_code == 201
+    assert response.json()["sha256"] == hashlib.sha256(content).hexdigest()
+
+
+def test_a_chunked_upload_is_the_same_upload(client):
+    content = picture()
+    response = client.post("/v1/assets", content=(content[n : n + 3] for n in range(0, 12, 3)))
+
+    assert response.json()["sha256"] == hashlib.sha256(content).hexdigest()
+
+
+@pytest.mark.parametrize(
+    "form",
+    [
+        {"files": {"picture": picture()}},
+        {"files": [("file", picture()), ("file", picture())]},
+        {"files": {"file": picture()}, "data": {"name": "x"}},
+        {"files": {"x": (None, "text")}},
+        {"files": {"file": (None, "text")}},
+    ],
+)
+def test_a_form_with_anything_but_one_file_is_refused(client, form):
+    response = client.post("/v1/assets", **form)
+
+    assert response.status_code in (400, 422)
+    assert response.json()["code"] in ("multipart_malformed", "request_invalid")
+
+
+@pytest.mark.parametrize("boundary", ["", "; boundary=", "; boundary=x", "; boundary=" + "y" * 999])
+def test_a_broken_form_is_refused(client, boundary):
+    headers = {"Content-Type": f"multipart/form-data{boundary}"}
+
+    for content in (b"", b"x", b"--x\r\n\r\n", b"--x\r\nContent-Disposition: form-data\r\n\r\na"):
+        response = client.post("/v1/assets", content=content, headers=headers)
+        assert response.status_code in (400, 422), content
+
+
+def test_what_is_not_a_picture_is_refused_and_the_next_one_is_taken(client, engine):
+    for content in (b"", b"GIF89a", b"<svg/>", b"PK\x03\x04"):
+        response = client.post("/v1/assets", content=content)
+        assert (response.status_code, response.json()["code"]) == (409, "asset_unsupported")
+
+    assert client.post("/v1/assets", content=picture()).status_code == 201
+    assert not list(engine.assets.folder.glob("*.part"))
+
+
+@pytest.mark.parametrize("media_type", ["application/json", "text/plain", "video/mp4", "model/obj"])
+def test_a_media_type_that_is_not_taken_is_415(client, media_type):
+    headers = {"Content-Type": media_type}
+
+    assert client.post("/v1/assets", content=picture(), headers=headers).status_code == 415
+
+
+@pytest.mark.parametrize("kind", ["bare", "chunked", "form"])
+def test_an_upload_over_the_limit_is_413_and_leaves_nothing(client, settings, engine, kind):
+    content = picture() + bytes(settings.upload_limit_bytes)
+    if kind == "form":
+        response = client.post("/v1/assets", files={"file": content})
+    elif kind == "chunked":
+        response = client.post("/v1/assets", content=iter([content[:9], content[9:]]))
+    else:
+        response = client.post("/v1/assets", content=content)
+
+    assert (response.status_code, response.json()["code"]) == (413, "body_too_large")
+    assert not list(engine.assets.folder.glob("*.part"))
+
+
+def test_an_upload_is_served_as_it_was_and_runs_in_no_browser(client, asset):
+    content, location = asset
+    response = client.get(location)
+
+    assert response.content == content
+    assert response.headers["content-type"] == "image/png"
+    assert response.headers["etag"] == f'"{hashlib.sha256(content).hexdigest()}"'
+    assert response.headers["x-content-type-options"] == "nosniff"
+    assert response.headers["content-disposition"].startswith("attachment")
+    assert response.headers["content-security-policy"].startswith("sandbox")
+    assert "immutable" in response.headers["cache-control"]
+
+
+def test_head_tells_what_get_would(client, asset):
+    head, get = (client.request(method, asset[1]) for method in ("HEAD", "GET"))
+
+    assert (head.status_code, head.content) == (200, b"")
+    assert dict(head.headers) == dict(get.headers)
+
+
+def test_json_gets_the_facts(client, asset):
+    content, location = asset
+    response = client.get(location, headers={"Accept": "application/json"})
+
+    assert response.json()["bytes"] == len(content)
+    assert client.get(location, headers={"Accept": "text/html"}).status_code == 406
+
+
+def test_a_caller_that_has_it_gets_304_and_a_part_is_206(client, asset):
+    content, location = asset
+    etag = f'"{location.rpartition("/")[2]}"'
+
+    assert client.get(location, headers={"If-None-Match": etag}).status_code == 304
+    assert client.get(location, headers={"Range": "bytes=0-3"}).content == content[:4]
+
+
+def test_a_deleted_upload_is_gone(client, asset):
+    _, location = asset
+    request = image_request(location.rpartition("/")[2])
+
+    assert client.post("/v1/textures", json=request).is_success
+    assert client.delete(location).status_code == 204
+    assert client.delete(location).status_code == 404
+    assert client.get(location).status_code == 404
+    missing = client.post("/v1/textures", json=request)
+    assert (missing.status_code, missing.json()["code"]) == (409, "asset_missing")
+    assert missing.json()["pointer"] == "/texture/asset"
+
+
+@pytest.mark.parametrize(
+    "name", ["x", "0" * 64, "0" * 63, "A" * 64, "%00", "..%2f..%2fjobs.sqlite"]
+)
+def test_unknown_assets_are_404(client, name):
+    for method in ("GET", "HEAD", "DELETE"):
+        assert client.request(method, f"/v1/assets/{name}").status_code == 404
+
+
+def test_nobody_sees_or_uses_another_tenants_uploads(app, client, asset):
+    content, location = asset
+    app.dependency_overrides[tenant] = lambda: "somebody else"
+    try:
+        for method in ("GET", "HEAD", "DELETE"):
+            assert client.request(method, location).status_code == 404
+        request = image_request(location.rpartition("/")[2])
+        assert client.post("/v1/textures", json=request).status_code == 409
+        assert client.post("/v1/assets", content=content).status_code == 201
+    finally:
+        del app.dependency_overrides[tenant]
+
+    assert client.get(location).status_code == 200
