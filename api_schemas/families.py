@@ -10,9 +10,6 @@ from api_schemas.cost import Cost
 
 Meaning = Literal["colour", "data"]
 
-SURFACE_SIDE = 1024
-"""Pixels along each side of a texture without a size of its own, where it lies on a surface."""
-
 
 class TechniqueSpec(Schema):
     """One technique with its parameters; the class carries what documentation and digests need."""
@@ -34,6 +31,9 @@ class TextureSpec(TechniqueSpec):
     """Whether the result is light (sRGB in a PNG) or numbers (quantised as they are)."""
     sized: ClassVar[bool] = False
     """Whether it has a size of its own in pixels; otherwise it is a function on the unit tile."""
+
+    surface_side: ClassVar[int] = 1024
+    """Pixels along each side of its picture, where a surface wears it."""
 
     def cost(self, pixels: int) -> Cost:
         """Estimate this technique at a number of pixels, without the textures nested in it."""

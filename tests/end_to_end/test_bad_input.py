@@ -1,4 +1,4 @@
-"""What is damaged, huge or impossible gets its named answer, and the next good request a picture."""
+"""What is damaged, huge or impossible gets its named answer; the next good request a picture."""
 
 import json
 import struct
@@ -106,7 +106,7 @@ NODE = ("scene", "nodes", 0)
             "asset_missing",
             "/scene/nodes/0/surface/color/texture/asset",
         ),
-        (set_at("output", {"size": [16384, 16384], "supersampling": 8}), "over_budget", None),
+        (set_at("output", {"size": [16384, 16384], "supersampling": 8}), "over_budget", ""),
     ],
     ids=["camera", "transform", "asset", "budget"],
 )
@@ -116,7 +116,7 @@ def test_what_cannot_be_done_is_told_before_work_starts(client, change, code, po
 
     assert answer.status_code == 409
     assert problem["code"] == code
-    assert problem.get("pointer") == pointer
+    assert problem["pointer"] == pointer
 
 
 @pytest.mark.parametrize(
