@@ -75,7 +75,7 @@ def run(request: dict[str, Any], out: Path, report: Report) -> dict[str, Any]:
 
 
 def _maker(pictures: UploadedPictures) -> TextureMaker:
-    """Make textures for surfaces: uploaded pictures at their own size, others at their technique's."""
+    """Make textures for surfaces: pictures at their own size, others at their technique's."""
 
     def make(spec: TextureSpec, meaning: Meaning) -> Image:
         if isinstance(spec, ImageSpec):
