@@ -8,8 +8,8 @@ from collections.abc import Mapping
 
 from api_schemas.assets import AssetFacts
 from api_schemas.cost import Cost
-from api_schemas.families import SURFACE_SIDE, TextureSpec
-from api_schemas.maps import Map
+from api_schemas.families import TextureSpec
+from api_schemas.maps import ColorMap, NumberMap
 from api_schemas.output import Output
 from api_schemas.requests import RenderRequest, Request
 from api_schemas.scene import Node
@@ -29,9 +29,11 @@ SECONDS_TO_COMPILE_A_MAP = 0.12
 SECONDS_PER_TRIANGLE = 2e-7
 SECONDS_PER_TEXEL = 1e-7
 BYTES_PER_TEXEL = 64
+BYTES_PER_KEPT_TEXEL = 24
 BYTES_PER_TRIANGLE = 200
 BYTES_PER_PIXEL = 48
-BYTES_PER_TILE = 2048 * 2048 * 52
+BYTES_PER_SAMPLE = 52
+BYTES_PER_TILE = 2048 * 2048 * BYTES_PER_SAMPLE
 
 
 def estimate(request: Request, facts: Mapping[str, AssetFacts]) -> Cost:
@@ -63,13 +65,19 @@ def _textures(value: object, facts: Mapping[str, AssetFacts], pixels: int) -> Co
 
 
 def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts], samples: int) -> Cost:
-    cost = _textures(request.scene, facts, SURFACE_SIDE * SURFACE_SIDE)
+    cost = Cost(bytes=float(min(samples * BYTES_PER_SAMPLE, BYTES_PER_TILE)))
+    making = 0.0
     per_sample = SECONDS_PER_SAMPLE
     for _, part in parts(request.scene):
-        if isinstance(part, Map):
+        if isinstance(part, ColorMap | NumberMap):
+            pixels = part.texture.surface_side**2
+            made = _textures(part.texture, facts, pixels)
+            making = max(making, made.bytes)
             per_sample += SECONDS_PER_MAP_SAMPLE[part.filter]
-            cost += Cost(SECONDS_TO_COMPILE_A_MAP, SURFACE_SIDE * SURFACE_SIDE * BYTES_PER_TEXEL)
+            seconds = SECONDS_TO_COMPILE_A_MAP + made.seconds
+            cost += Cost(seconds, pixels * BYTES_PER_KEPT_TEXEL)
         elif isinstance(part, Node) and part.mesh is not None:
             triangles = part.mesh.triangles
             cost += Cost(triangles * SECONDS_PER_TRIANGLE, triangles * BYTES_PER_TRIANGLE)
-    return cost + Cost(samples * per_sample, float(min(samples * 52, BYTES_PER_TILE)))
+    # Pictures are made one after another and kept as textures: only the largest counts twice.
+    return cost + Cost(samples * per_sample, making)

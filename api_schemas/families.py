@@ -3,15 +3,12 @@
 A technique's name is written once: its module's name, its `technique` literal, its word in the URL.
 """
 
-from typing import ClassVar, Literal
+from typing import ClassVar, Literal, Self
 
 from api_schemas.base import Schema
 from api_schemas.cost import Cost
 
 Meaning = Literal["colour", "data"]
-
-SURFACE_SIDE = 1024
-"""Pixels along each side of a texture without a size of its own, where it lies on a surface."""
 
 
 class TechniqueSpec(Schema):
@@ -35,6 +32,9 @@ class TextureSpec(TechniqueSpec):
     sized: ClassVar[bool] = False
     """Whether it has a size of its own in pixels; otherwise it is a function on the unit tile."""
 
+    surface_side: ClassVar[int] = 1024
+    """Pixels along each side of its picture, where a surface wears it."""
+
     def cost(self, pixels: int) -> Cost:
         """Estimate this technique at a number of pixels, without the textures nested in it."""
         return Cost(seconds=pixels * 2e-8, bytes=pixels * 32)
@@ -46,3 +46,7 @@ class CoordinatesSpec(TechniqueSpec):
 
 class SurfaceSpec(TechniqueSpec):
     """Says how a surface sends light to the eye."""
+
+    def filled(self) -> Self:
+        """Return the surface with every parameter that follows another one set to its value."""
+        return self

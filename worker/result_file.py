@@ -1,9 +1,9 @@
 """The finished file: a picture becomes a PNG or an EXR as the request's output says."""
 
-from importlib.metadata import version
 from pathlib import Path
 
 from api_schemas.output import Output
+from api_schemas.version import VERSION
 from worker.images import image_io
 from worker.images.image import Image
 
@@ -22,7 +22,7 @@ def write(image: Image, output: Output, digest: str, path: Path) -> str:
             path,
             pixel_type=output.exr_type,
             digest=digest,
-            version=version("texloom"),
+            version=VERSION,
         )
         return MEDIA_TYPES["exr"]
     is_colour = image.meaning == "colour"

@@ -7,7 +7,7 @@ import hashlib
 from pathlib import Path
 from typing import Any
 
-from api_schemas.families import SURFACE_SIDE, Meaning, TextureSpec
+from api_schemas.families import Meaning, TextureSpec
 from api_schemas.requests import REQUESTS, RenderRequest, Request
 from api_schemas.textures.image import ImageSpec
 from worker import result_file, synthesis
@@ -75,11 +75,12 @@ def run(request: dict[str, Any], out: Path, report: Report) -> dict[str, Any]:
 
 
 def _maker(pictures: UploadedPictures) -> TextureMaker:
-    """Make textures for surfaces: uploaded pictures at their own size, all others at one size."""
+    """Make textures for surfaces: pictures at their own size, others at their technique's."""
 
     def make(spec: TextureSpec, meaning: Meaning) -> Image:
         if isinstance(spec, ImageSpec):
             return pictures.read(spec, meaning)
-        return synthesis.synthesize(spec, (SURFACE_SIDE, SURFACE_SIDE), pictures.read, meaning)
+        size = (spec.surface_side, spec.surface_side)
+        return synthesis.synthesize(spec, size, pictures.read, meaning)
 
     return make

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal, Self
 
 from pydantic import Field
 
@@ -25,8 +25,9 @@ class PhongSpec(SurfaceSpec):
     ambient_weight: MappableNonNegative = Field(
         default=1.0, description="How much of the ambient light comes back (ka)."
     )
-    ambient_color: MappableColor = Field(
-        default=[1.0, 1.0, 1.0], description="Linear colour in ambient light (Ca)."
+    ambient_color: MappableColor | None = Field(
+        default=None,
+        description="Linear colour in ambient light (Ca); the colour of the matt part without one.",
     )
     diffuse_weight: MappableNonNegative = Field(
         default=1.0, description="How bright the matt part is (kd)."
@@ -51,3 +52,9 @@ class PhongSpec(SurfaceSpec):
         description="none is the formula as written; energy divides the matt part by pi and "
         "weights the highlight by (n + 2) / (2 pi) and n.l: a tighter highlight is brighter.",
     )
+
+    def filled(self) -> Self:
+        """Let the ambient colour follow the matt one where it is not given."""
+        if self.ambient_color is not None:
+            return self
+        return self.model_copy(update={"ambient_color": self.diffuse_color})

@@ -20,6 +20,8 @@ class ConstantSpec(TextureSpec):
     source: ClassVar[str] = "none needed"
     equation: ClassVar[str] = "f(u, v) = value"
 
+    surface_side: ClassVar[int] = 1
+
     technique: Literal["constant"]
     value: Annotated[
         Annotated[Number, Tag("number")] | Annotated[Channels, Tag("channels")],

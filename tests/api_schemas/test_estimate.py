@@ -44,3 +44,21 @@ def test_every_example_is_cheap():
 
         assert cost.seconds < 10, path
         assert cost.bytes < 1e9, path
+
+
+def test_a_scene_of_many_maps_is_within_two_gibibytes():
+    perlin = {"texture": {"technique": "perlin"}}
+    surface = {
+        "technique": "phong",
+        **{
+            f"{term}_{kind}": perlin
+            for term in ("diffuse", "specular")
+            for kind in ("weight", "color")
+        },
+        "exponent": perlin,
+        "emission": perlin,
+    }
+    body = json.loads(json.dumps(CAN))
+    body["scene"]["nodes"] = [{"mesh": {"type": "sphere"}, "surface": surface}] * 8
+
+    assert estimate(RenderRequest.model_validate(body), {}).bytes < 2 << 30

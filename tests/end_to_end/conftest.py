@@ -31,3 +31,4 @@ def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningService
     service = RunningService(tmp_path_factory.mktemp("service") / "data").start()
     yield service
     assert service.stop() == 0, service.log()
+    assert "leaked" not in service.log()

@@ -46,8 +46,9 @@ def test_the_first_screen_shows_the_two_commands_and_a_picture_in_each_format():
 
 def test_every_curl_line_works_in_the_order_it_is_written(service, clone):
     assert COMMANDS
-    for asset in ASSETS:
-        assert service.client().post("/v1/assets", content=asset.read_bytes()).is_success
+    with service.client() as client:
+        for asset in ASSETS:
+            assert client.post("/v1/assets", content=asset.read_bytes()).is_success
     for command in COMMANDS:
         done = run(command, service, clone)
 

@@ -22,7 +22,7 @@ SLOW = {
             }
         ],
     },
-    "output": {"size": [3000, 3000], "supersampling": 6, "format": "png"},
+    "output": {"size": [1500, 1500], "supersampling": 6, "format": "png"},
 }
 
 
@@ -90,7 +90,7 @@ def test_a_cancelled_job_stops_and_the_next_one_is_served(make_service):
         job = client.post("/v1/renders", json=SLOW).json()["id"]
         wait_for(client, job, {"running"})
 
-        assert client.delete(f"/v1/jobs/{job}").status_code in {200, 202}
+        assert client.delete(f"/v1/jobs/{job}").json()["id"] == job
         assert wait_for(client, job, {"cancelled"}, seconds=5)["state"] == "cancelled"
         following = client.post(
             "/v1/textures",
@@ -107,7 +107,7 @@ def test_a_full_queue_answers_429_and_says_when_to_come_back(make_service):
     with service.client() as client:
         answers = []
         for seed in range(4):
-            body = {**SLOW, "output": {**SLOW["output"], "size": [3000, 3000 - seed]}}
+            body = {**SLOW, "output": {**SLOW["output"], "size": [1500, 1500 - seed]}}
             answers.append(client.post("/v1/renders", json=body))
         refused = [answer for answer in answers if answer.status_code == 429]
 

@@ -12,6 +12,7 @@ import faulthandler
 import importlib
 import json
 import logging
+import multiprocessing
 import os
 import resource
 import signal
@@ -44,6 +45,9 @@ def serve(connection: Connection, module: str, environment: Mapping[str, str]) -
     """Warm the executor named `module` up and answer requests until the pipe closes."""
     become_expendable()
     os.environ.update(environment)
+    # A child starts no processes. Locks that libraries make under this method (numba makes one) are
+    # nameless; those of a forkserver would outlive a killed child and be reported as leaked.
+    multiprocessing.set_start_method("fork", force=True)
 
     def report(progress: float, stage: str) -> None:
         _send(connection, "report", progress, stage)

@@ -76,16 +76,6 @@ class GLContext:
         if threading.get_ident() != self.thread:
             raise RenderError("drawing was called from a thread that does not own the GL context")
 
-    def check(self, doing: str) -> None:
-        """Raise what OpenGL has to complain about since the last check.
-
-        Raises:
-            RenderError: An OpenGL error, with its number.
-        """
-        code = int(GL.glGetError())
-        if code != int(GL.GL_NO_ERROR):
-            raise RenderError(f"OpenGL error {code:#x} while {doing}")
-
     def version(self) -> str:
         """Say which OpenGL and Mesa draw."""
         return _text(GL.GL_VERSION)
@@ -111,9 +101,20 @@ def _text(name: int) -> str:
     return value.decode() if isinstance(value, bytes) else str(value)
 
 
+def check(doing: str) -> None:
+    """Raise what OpenGL has to complain about since the last check.
+
+    Raises:
+        RenderError: An OpenGL error, with its number.
+    """
+    code = int(GL.glGetError())
+    if code != int(GL.GL_NO_ERROR):
+        raise RenderError(f"OpenGL error {code:#x} while {doing}")
+
+
 def floats(values: Any) -> np.ndarray:
     """Make the contiguous float32 array that OpenGL reads from."""
     return np.ascontiguousarray(values, dtype=np.float32)
 
 
-__all__ = ["GL", "PLATFORMS", "GLContext", "floats"]
+__all__ = ["GL", "PLATFORMS", "GLContext", "check", "floats"]

@@ -19,7 +19,7 @@ from pyrender.constants import RenderFlags
 from worker.geometry.mesh import Mesh
 from worker.geometry.transforms import Matrix, normal_matrix, rigid_inverse
 from worker.rendering.fragment import surface_sources
-from worker.rendering.gl_context import GL, GLContext
+from worker.rendering.gl_context import GL, GLContext, check
 from worker.rendering.programs import Program, ProgramCache
 from worker.rendering.samplers import SamplerCache
 from worker.rendering.shading import Shading
@@ -98,6 +98,7 @@ def upload_mesh(mesh: Mesh) -> UploadedMesh:
         positions=mesh.positions, normals=mesh.normals, texcoord_0=mesh.uv, indices=mesh.triangles
     )
     primitive._add_to_context()
+    check("uploading a mesh")
     return primitive
 
 
@@ -204,7 +205,7 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         self._samplers.trim()
         self.viewport_width, self.viewport_height = size
         self.render(scene, RenderFlags.OFFSCREEN)
-        self._context.check("drawing a tile")
+        check("drawing a tile")
 
     # Hooks of pyrender.Renderer, in the order in which its traversal calls them.
 
@@ -220,7 +221,7 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         GL.glDepthFunc(GL.GL_GREATER)
         GL.glClearDepth(0.0)
         GL.glDisable(GL.GL_BLEND)
-        GL.glDisable(GL.GL_CULL_FACE)
+        GL.glEnable(GL.GL_CULL_FACE)
 
     def _get_camera_matrices(self, scene: Any) -> tuple[Matrix, Matrix]:
         assert self._frame is not None
@@ -258,7 +259,6 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         program.set("clip_from_object", frame.clip_from_world @ pose)
         program.set("eye_from_object", frame.eye_from_world @ pose)
         program.set("normal_from_object", normal_matrix(pose))
-        program.set("front_is_ccw", np.linalg.det(pose[:3, :3]) >= 0)
         shading: Shading = primitive.material.shading
         for name, value in shading.uniforms.items():
             program.set(name, value)
@@ -269,9 +269,13 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
             program.set(f"picture_{unit}", unit)
         start = time.perf_counter()
         primitive._bind()
-        GL.glDrawElementsInstanced(
-            GL.GL_TRIANGLES, primitive.indices.size, GL.GL_UNSIGNED_INT, None, 1
-        )
+        # A mirrored transform turns the winding, but not which side is the outer one.
+        mirrored = np.linalg.det(pose[:3, :3]) < 0
+        GL.glFrontFace(GL.GL_CW if mirrored else GL.GL_CCW)
+        # Outer sides first: the depth test then spares the shading of inner sides behind them.
+        for hidden in (GL.GL_BACK, GL.GL_FRONT):
+            GL.glCullFace(hidden)
+            GL.glDrawElements(GL.GL_TRIANGLES, primitive.indices.size, GL.GL_UNSIGNED_INT, None)
         primitive._unbind()
         if not program.drawn:
             program.drawn = True

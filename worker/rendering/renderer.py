@@ -1,5 +1,6 @@
 """Draw a request's scene: build, tile by tile, resolved to one float picture."""
 
+import atexit
 import functools
 import time
 from collections.abc import Callable, Iterator
@@ -13,7 +14,7 @@ from api_schemas.language import FAMILIES
 from api_schemas.output import RenderOutput
 from api_schemas.scene import Scene
 from worker.images.image import Image, Meaning
-from worker.rendering.gl_context import GLContext
+from worker.rendering.gl_context import GLContext, check
 from worker.rendering.lighting import light_uniforms
 from worker.rendering.pyrender_adapter import FloatRenderer, pyrender_scene
 from worker.rendering.scene_builder import SceneBuilder, TextureMaker
@@ -47,6 +48,8 @@ class _Engine:
         self.renderer = FloatRenderer(self.context)
         self.targets = TargetPair()
         self.builder = SceneBuilder()
+        # pyrender's destructor would call OpenGL from a half-gone interpreter.
+        atexit.register(self.renderer.delete)
 
 
 @functools.cache
@@ -91,7 +94,7 @@ def render(scene: Scene, output: RenderOutput, textures: TextureMaker, report: R
             output.supersampling,
             pixels[top : top + tile.height, tile.left : tile.left + tile.width],
         )
-    engine.context.check("resolving")
+    check("resolving samples")
     jit = engine.renderer.jit_seconds - jit_before
     timings = {
         "draw_ms": round((time.perf_counter() - start - jit) * 1000, 3),

@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from api_schemas.maps import Filter, Wrap
 from worker.rendering.gl_context import GL, floats
 
@@ -67,7 +69,8 @@ class SamplerCache:
     def delete(self) -> None:
         """Free all samplers."""
         if self._samplers:
-            GL.glDeleteSamplers(len(self._samplers), list(self._samplers.values()))
+            samplers = np.array(list(self._samplers.values()), dtype=np.uint32)
+            GL.glDeleteSamplers(len(samplers), samplers)
         self._samplers.clear()
 
 

@@ -25,8 +25,8 @@ from worker.rendering.pyrender_adapter import Drawable, UploadedMesh, View, dele
 from worker.rendering.shading import shade
 from worker.rendering.textures import Texture
 
-TEXTURE_BYTES_MAX = 256 << 20
-MESH_BYTES_MAX = 128 << 20
+TEXTURE_BYTES_MAX = 128 << 20
+MESH_BYTES_MAX = 64 << 20
 _MATT_GREY = PhongSpec(technique="phong")
 
 

@@ -109,6 +109,7 @@ def shade(surface: SurfaceSpec, texture_of: TextureSource) -> Shading:
         RenderError: More than 24 different pictures.
     """
     plan = _Plan(texture_of)
+    surface = surface.filled()
     parameters = tuple(
         plan.parameter(surface, name, kind)
         for name, kind in surface_fields(surface.technique).items()

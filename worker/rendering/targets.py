@@ -101,6 +101,7 @@ class TargetPair:
         GL.glBindFramebuffer(GL.GL_DRAW_FRAMEBUFFER, self._pixels.framebuffer)
         GL.glViewport(0, 0, width, height)
         GL.glDisable(GL.GL_DEPTH_TEST)
+        GL.glDisable(GL.GL_CULL_FACE)
         GL.glDisable(GL.GL_BLEND)
         self._program.bind()
         GL.glActiveTexture(GL.GL_TEXTURE0)

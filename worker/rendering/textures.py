@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from worker.errors import RenderError
 from worker.images.image import Meaning
-from worker.rendering.gl_context import GL, floats
+from worker.rendering.gl_context import GL, check, floats
 
 SIDE_MAX = 16384
 
@@ -55,7 +55,7 @@ class Texture:
             meaning: What the channels are.
 
         Raises:
-            RenderError: A side is more than 16384 texels.
+            RenderError: A side is more than 16384 texels, or OpenGL has no room.
         """
         height, width, channels = levels[0].shape
         if max(height, width) > SIDE_MAX:
@@ -83,6 +83,7 @@ class Texture:
             swizzle = np.array(_GREY if channels == 1 else _GREY_ALPHA, dtype=np.int32)
             GL.glTexParameteriv(GL.GL_TEXTURE_2D, GL.GL_TEXTURE_SWIZZLE_RGBA, swizzle)
         GL.glBindTexture(GL.GL_TEXTURE_2D, 0)
+        check("uploading a texture")
         return cls(
             number=number,
             width=width,

@@ -47,7 +47,7 @@ class Studio:
             lambda spec, meaning: Image(self._arrays[spec.asset], meaning),
             lambda fraction, stage: self.reports.append((fraction, stage)),
         )
-        self.facts = rendering.facts
+        self.facts = rendering.timings | rendering.counts
         return rendering.image.pixels
 
     def poster(

@@ -76,3 +76,28 @@ def test_the_letter_reads(studio: Studio, case: str) -> None:
     assert stem[1] < lower[1] < upper[1], "the arms point to the right"
     assert upper[0] < lower[0], "the longer arm is on top"
     assert upper[0] < stem[0]
+
+
+@pytest.mark.parametrize("mesh", ["cylinder", "sphere", "torus"])
+def test_the_seam_does_not_show(studio: Studio, mesh: str) -> None:
+    # Half a turn round the axis and half a tile along u are the same thing.
+    picture = studio.texture(np.random.default_rng(9).random((32, 64, 3)))
+
+    def seen_from(x: float, shift: float) -> np.ndarray:
+        mapped = {"texture": picture, "transform": {"offset": [shift, 0.0]}}
+        return studio.draw(
+            {
+                "camera": {"type": "perspective", "pose": {"eye": [x, 1.0, 0.0]}},
+                "nodes": [
+                    {"mesh": {"type": mesh}, "surface": {"technique": "unlit", "color": mapped}}
+                ],
+            },
+            (96, 96),
+        )
+
+    at_the_seam, opposite = seen_from(4.0, 0.0), seen_from(-4.0, 0.5)
+
+    # cos and sin of opposite angles differ in the last bit, uv by 2^-24; 64 texels from 0 to 1.
+    error = np.abs(at_the_seam - opposite).max(axis=2)
+    assert np.quantile(error, 0.99) < 2e-4
+    assert error[40:56, 40:56].max() < 2e-3

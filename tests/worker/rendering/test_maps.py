@@ -42,7 +42,7 @@ def test_a_constant_map_is_the_constant_bit_for_bit(
     studio: Studio, technique: str, name: str, filter_name: str, normalization: str
 ) -> None:
     # T03
-    default = FAMILIES["surfaces"][technique].model_fields[name].default
+    default = getattr(FAMILIES["surfaces"][technique](technique=technique).filled(), name)
     value: Any = [0.1, 0.7, 0.3] if isinstance(default, list) else 0.7
     channels = 3 if isinstance(default, list) else 1
     picture = studio.texture(np.broadcast_to(np.float32(value), (64, 64, channels)))

@@ -65,6 +65,26 @@ def test_slanting_light(
     np.testing.assert_allclose(drawn, 2.5 * (matt * facing + gloss), rtol=1e-6 + 2**-22 * exponent)
 
 
+@pytest.mark.parametrize("exponent", [0.5, 8.0, 60.0])
+@pytest.mark.parametrize("angle", [0.05, 0.3, np.pi / 4, 0.8, 1.2])
+def test_the_highlight_is_a_power_to_float_precision(
+    studio: Studio, exponent: float, angle: float
+) -> None:
+    drawn = studio.poster(
+        {
+            "technique": "phong",
+            "diffuse_weight": 0.0,
+            "specular_weight": 1.0,
+            "exponent": exponent,
+        },
+        (1, 1),
+        lights=[{"type": "directional", "direction": [np.sin(angle), 0.0, -np.cos(angle)]}],
+    )[0, 0, 0]
+
+    # r.v = cos(angle) within 2^-24 relative, times the exponent; the logarithm adds as much.
+    assert drawn == pytest.approx(np.cos(angle) ** exponent, rel=2e-7 + exponent * 2**-23)
+
+
 def test_light_from_behind_gives_nothing(studio: Studio) -> None:
     drawn = studio.poster(SURFACE, lights=[{"type": "directional", "direction": [0.0, 0.0, 1.0]}])
 
@@ -87,6 +107,15 @@ def test_ambient_lights_add_up(studio: Studio) -> None:
     )
 
     np.testing.assert_array_equal(drawn[3, 3, :3], [1.0, 0.5, 0.5])
+
+
+def test_the_ambient_colour_is_the_matt_one_unless_given(studio: Studio) -> None:
+    drawn = studio.poster(
+        {"technique": "phong", "diffuse_color": [0.5, 0.25, 0.125]},
+        lights=[{"type": "ambient", "radiance": [1.0, 1.0, 1.0]}],
+    )
+
+    np.testing.assert_array_equal(drawn[3, 3, :3], [0.5, 0.25, 0.125])
 
 
 def test_point_light_falls_with_the_square_of_the_distance(studio: Studio) -> None:

@@ -87,6 +87,25 @@ def test_whole_tiles_do_not_change_a_bit(studio: Studio, tiles: int) -> None:
     )
 
 
+def test_half_a_million_tiles_away_a_large_picture_is_still_read(studio: Studio) -> None:
+    # 499999.25 tiles of 8192 texels are more texels than a 32-bit integer counts.
+    picture = studio.texture(np.arange(8192, dtype=np.float32)[None, :])
+
+    drawn = studio.poster(
+        {
+            "technique": "unlit",
+            "color": {
+                "texture": picture,
+                "filter": "nearest",
+                "transform": {"scale": [999998.5, 1.0]},
+            },
+        },
+        (1, 1),
+    )
+
+    assert drawn[0, 0, 0] == 2048
+
+
 @pytest.mark.parametrize("wrap_u", WRAPS)
 @pytest.mark.parametrize("wrap_v", WRAPS)
 @pytest.mark.parametrize("shape", [(4, 8, 3), (5, 3, 4), (1, 1, 3)], ids=str)
@@ -186,6 +205,7 @@ def test_a_number_map_reads_its_channel_alone(
     drawn = studio.poster(
         {
             "technique": "phong",
+            "ambient_color": [1.0, 1.0, 1.0],
             "ambient_weight": {
                 "texture": studio.texture(texel[None, None]),
                 "channel": channel,

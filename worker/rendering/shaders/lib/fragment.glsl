@@ -2,8 +2,7 @@
 in vec3 vertex_position;
 in vec3 vertex_normal;
 in vec2 vertex_uv;
-uniform vec4 eye;           // (0, 0, 0, 1), or the direction towards an orthographic camera and 0
-uniform bool front_is_ccw;  // false where a mirrored transform turns the winding
+uniform vec4 eye;  // (0, 0, 0, 1), or the direction towards an orthographic camera and 0
 layout(location = 0) out vec4 color;
 
 // Both sides of a surface are lit: the normal is turned to the side that is seen.
@@ -11,7 +10,7 @@ SurfacePoint surface_point() {
     vec3 normal = normalize(vertex_normal);
     return SurfacePoint(
         vertex_position,
-        gl_FrontFacing == front_is_ccw ? normal : -normal,
+        gl_FrontFacing ? normal : -normal,
         normalize(eye.xyz - eye.w * vertex_position),
         vertex_uv
     );

@@ -1,0 +1,136 @@
+"""What is damaged, huge or impossible gets its named answer; the next good request a picture."""
+
+import json
+import struct
+import zlib
+
+import pytest
+
+from tests.examples import ASSETS, EXAMPLES
+
+pytestmark = [pytest.mark.end_to_end, pytest.mark.gl]
+
+LABEL = ASSETS[0].read_bytes()
+CAN = json.loads((EXAMPLES / "renders/soda_can.json").read_text())
+GOOD = {"texture": {"technique": "checkerboard"}, "output": {"size": [16, 16]}}
+
+
+@pytest.fixture
+def client(service):
+    with service.client() as client:
+        yield client
+        answer = client.post("/v1/textures", json=GOOD, headers={"Accept": "image/png"})
+        assert answer.content.startswith(b"\x89PNG"), "the next good request was not served"
+
+
+def chunk(name, data):
+    return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+
+
+def png(width, height, data):
+    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
+    return (
+        b"\x89PNG\r\n\x1a\n"
+        + chunk(b"IHDR", header)
+        + chunk(b"IDAT", zlib.compress(data))
+        + chunk(b"IEND", b"")
+    )
+
+
+BOMB = png(16384, 16384, bytes(50_000_000))
+
+
+@pytest.mark.parametrize(
+    ("upload", "code"),
+    [
+        (LABEL[: len(LABEL) // 2], "asset_unusable"),
+        (LABEL[:5000] + bytes(400) + LABEL[5400:], "asset_unusable"),
+        (BOMB, "asset_too_large"),
+        (b"GIF89a" + bytes(100), "asset_unsupported"),
+        (b"<svg xmlns='http://www.w3.org/2000/svg'/>", "asset_unsupported"),
+        (b"PK\x03\x04" + bytes(100), "asset_unsupported"),
+        (bytes(100), "asset_unsupported"),
+    ],
+    ids=["truncated", "damaged", "bomb", "gif", "svg", "zip", "zeros"],
+)
+def test_a_picture_that_is_none_is_refused_by_name(client, upload, code):
+    answer = client.post("/v1/assets", content=upload, headers={"Content-Type": "image/png"})
+
+    assert 400 <= answer.status_code < 500
+    assert answer.headers["content-type"] == "application/problem+json"
+    assert answer.json()["code"] == code
+
+
+def can(change):
+    body = json.loads(json.dumps(CAN))
+    change(body)
+    return body
+
+
+def set_at(*path):
+    *folders, name, value = path
+
+    def change(body):
+        for folder in folders:
+            body = body[folder]
+        body[name] = value
+
+    return change
+
+
+NODE = ("scene", "nodes", 0)
+
+
+@pytest.mark.parametrize(
+    ("change", "code", "pointer"),
+    [
+        (
+            set_at("scene", "camera", "pose", {"eye": [0, 9, 0]}),
+            "camera_degenerate",
+            "/scene/camera/pose/up",
+        ),
+        (
+            set_at(*NODE, "transform", {"scale": [1, 0, 1]}),
+            "transform_singular",
+            "/scene/nodes/0/transform",
+        ),
+        (
+            set_at(
+                *NODE,
+                "surface",
+                {
+                    "technique": "unlit",
+                    "color": {"texture": {"technique": "image", "asset": "f" * 64}},
+                },
+            ),
+            "asset_missing",
+            "/scene/nodes/0/surface/color/texture/asset",
+        ),
+        (set_at("output", {"size": [16384, 16384], "supersampling": 8}), "over_budget", ""),
+    ],
+    ids=["camera", "transform", "asset", "budget"],
+)
+def test_what_cannot_be_done_is_told_before_work_starts(client, change, code, pointer):
+    answer = client.post("/v1/renders", json=can(change))
+    problem = answer.json()
+
+    assert answer.status_code == 409
+    assert problem["code"] == code
+    assert problem["pointer"] == pointer
+
+
+@pytest.mark.parametrize(
+    ("change", "pointer"),
+    [
+        (set_at(*NODE, "mesh", "radius", 0), "/scene/nodes/0/mesh/radius"),
+        (set_at(*NODE, "mesh", "segments", 10**7), "/scene/nodes/0/mesh/segments"),
+        (set_at("output", "size", [0, 16]), "/output/size/0"),
+        (set_at(*NODE, "surface", "exponent", -1), "/scene/nodes/0/surface/exponent"),
+        (set_at(*NODE, "surface", "shine", 1), "/scene/nodes/0/surface/shine"),
+    ],
+)
+def test_what_the_schema_refuses_is_told_with_its_place(client, change, pointer):
+    answer = client.post("/v1/renders", json=can(change))
+
+    assert answer.status_code == 422
+    assert [error["pointer"] for error in answer.json()["problems"]] == [pointer]
