@@ -1,6 +1,7 @@
 """`python -m service` serves until it is told to stop, and then finishes what is running."""
 
 import logging
+import socket
 import sys
 import threading
 from types import FrameType
@@ -57,16 +58,44 @@ def main() -> int:
         timeout_graceful_shutdown=5,
     )
     server = Server(config, app)
-    socket = config.bind_socket()
     try:
+        listener = listening(settings.host, settings.port)
         engine.start()
-    except DataFolderInUseError as error:
+    except (OSError, DataFolderInUseError) as error:
         print(f"texloom: {error}", file=sys.stderr)  # noqa: T201
         return 1
-    host, port = socket.getsockname()[:2]
-    print(f"Texloom serves http://{host}:{port} (documentation: /docs)", flush=True)  # noqa: T201
-    server.run([socket])
+    print(f"Texloom serves {address(listener)} (documentation: /docs)", flush=True)  # noqa: T201
+    server.run([listener])
     return 0
+
+
+def listening(host: str, port: int) -> socket.socket:
+    """Return a socket bound to an address; port 0 takes a free one.
+
+    It says that it is TCP: only then asyncio switches off Nagle's algorithm, which makes every
+    answer on a connection that is kept wait 40 ms for the caller's delayed acknowledgement.
+
+    Raises:
+        OSError: The address is in use or not of this machine.
+    """
+    found = socket.getaddrinfo(
+        host, port, type=socket.SOCK_STREAM, proto=socket.IPPROTO_TCP, flags=socket.AI_PASSIVE
+    )
+    family, kind, protocol, _, place = found[0]
+    listener = socket.socket(family, kind, protocol)
+    listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    try:
+        listener.bind(place)
+    except OSError as error:
+        listener.close()
+        raise OSError(f"cannot listen on {host} port {port}: {error.strerror}") from error
+    return listener
+
+
+def address(listener: socket.socket) -> str:
+    """Return the URL of a bound socket."""
+    host, port = listener.getsockname()[:2]
+    return f"http://[{host}]:{port}" if ":" in host else f"http://{host}:{port}"
 
 
 if __name__ == "__main__":
