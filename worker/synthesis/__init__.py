@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from types import ModuleType
 
     from worker.images.image import Image
+    from worker.stages import Report
 
     Key = tuple[str, Meaning]
     Load = Callable[[ImageSpec, Meaning], Image]
@@ -72,7 +73,7 @@ def techniques() -> list[str]:
     return sorted(name for name in names if not name.startswith("_"))
 
 
-def warm(report: Callable[[float, str], None]) -> None:
+def warm(report: Report) -> None:
     """Compile every kernel, or load it from the cache; `report` gets share done and name."""
     names = techniques()
     for done, name in enumerate(names):

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from api_schemas.lights import LIGHTS_MAX
 from tests.worker.rendering.studio import Studio
 
 pytestmark = pytest.mark.gl
@@ -167,10 +168,10 @@ def test_spot_light_is_full_inside_and_nothing_outside(studio: Studio) -> None:
     assert drawn[0, 0] == 0
 
 
-def test_thirty_two_lights_are_thirty_two_times_one(studio: Studio) -> None:
-    one = {**FRONT, "irradiance": 0.0625}
+def test_as_many_lights_as_there_may_be_are_so_many_times_one(studio: Studio) -> None:
+    one = {**FRONT, "irradiance": 2.0 / LIGHTS_MAX}
 
-    drawn = studio.poster(SURFACE, lights=[one] * 32)
+    drawn = studio.poster(SURFACE, lights=[one] * LIGHTS_MAX)
 
     np.testing.assert_array_equal(
         drawn, studio.poster(SURFACE, lights=[{**FRONT, "irradiance": 2.0}])
