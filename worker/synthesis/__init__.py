@@ -18,8 +18,8 @@ from collections import Counter
 from typing import TYPE_CHECKING, cast
 
 from api_schemas.families import Meaning, TextureSpec
-from api_schemas.maps import Slot
 from api_schemas.textures.image import ImageSpec
+from api_schemas.walk import meaning_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -89,8 +89,7 @@ def _slots(spec: TextureSpec, meaning: Meaning) -> dict[str, tuple[TextureSpec, 
     for name, field in type(spec).model_fields.items():
         value = getattr(spec, name)
         if isinstance(value, TextureSpec):
-            slot = next((item for item in field.metadata if isinstance(item, Slot)), None)
-            slots[name] = (value, slot.meaning if slot else meaning)
+            slots[name] = (value, meaning_of(field, meaning))
     return slots
 
 
