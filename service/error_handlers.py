@@ -14,6 +14,7 @@ from starlette.routing import Match
 from api_schemas.problems import Obstruction
 from service.pointers import MESSAGES
 from service.problems import ProblemError
+from worker.jobs.child import FULL_DISK
 from worker.jobs.errors import DrainingError, QueueFullError, SlotError, StorageFullError
 
 METHODS: Final = ("GET", "HEAD", "POST", "PUT", "PATCH", "DELETE")
@@ -33,6 +34,7 @@ def install(app: FastAPI) -> None:
         QueueFullError: _queue_full,
         DrainingError: _draining,
         StorageFullError: _storage_full,
+        OSError: _no_disk,
         SlotError: _no_slot,
         ClientDisconnect: _gone,
         Exception: _mistake,
@@ -88,6 +90,13 @@ async def _draining(_request: Request, _error: DrainingError) -> Response:
 
 async def _storage_full(_request: Request, _error: StorageFullError) -> Response:
     return ProblemError("storage_full", headers=SOON).response()
+
+
+async def _no_disk(request: Request, error: OSError) -> Response:
+    """An upload is written as it comes, and may be what fills the disk."""
+    if error.errno not in FULL_DISK:
+        raise error
+    return await _storage_full(request, StorageFullError("the disk is full"))
 
 
 async def _no_slot(_request: Request, error: SlotError) -> Response:

@@ -101,6 +101,7 @@ def render(scene: Scene, output: RenderOutput, textures: TextureMaker, report: R
     }
     counts = {"triangles": built.triangles, "texels": built.texels}
     engine.builder.trim()
+    engine.renderer.trim()
     report(1.0, "draw")
     return Rendering(Image(pixels, "colour"), timings, counts)
 
