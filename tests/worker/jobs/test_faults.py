@@ -135,6 +135,21 @@ def test_an_outcome_that_cannot_be_recorded_is_recorded_later(engine, submit, fi
     assert len(refusals) == 2
 
 
+def test_a_half_result_leaves_its_room_on_the_disk_to_the_record(
+    engine, submit, finish, monkeypatch, tmp_path
+):
+    seen = []
+    fail = Claims.fail
+
+    def look(self, claim, why):
+        seen.append(halves(tmp_path))
+        fail(self, claim, why)
+
+    monkeypatch.setattr(Claims, "fail", look)
+    assert finish(engine, submit(engine, limit=0.2, do="stuck")).failure["code"] == "timed_out"
+    assert seen == [[]]
+
+
 def test_progress_that_cannot_be_recorded_costs_nothing(engine, submit, finish, monkeypatch):
     def refuse(self, claim, progress, stage):
         raise StorageFullError
