@@ -64,20 +64,31 @@ def _textures(value: object, facts: Mapping[str, AssetFacts], pixels: int) -> Co
     return cost
 
 
+def _texels_worn(texture: TextureSpec, facts: Mapping[str, AssetFacts]) -> int:
+    """Return how large a texture is on a surface: uploaded pictures stay as large as they are."""
+    if isinstance(texture, ImageSpec) and texture.asset in facts:
+        return facts[texture.asset].width * facts[texture.asset].height
+    return texture.surface_side**2
+
+
 def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts], samples: int) -> Cost:
     cost = Cost(bytes=float(min(samples * BYTES_PER_SAMPLE, BYTES_PER_TILE)))
     making = 0.0
     per_sample = SECONDS_PER_SAMPLE
+    made = set()
     for _, part in parts(request.scene):
         if isinstance(part, ColorMap | NumberMap):
-            pixels = part.texture.surface_side**2
-            made = _textures(part.texture, facts, pixels)
-            making = max(making, made.bytes)
             per_sample += SECONDS_PER_MAP_SAMPLE[part.filter]
-            seconds = SECONDS_TO_COMPILE_A_MAP + made.seconds
-            cost += Cost(seconds, pixels * BYTES_PER_KEPT_TEXEL)
+            cost += Cost(SECONDS_TO_COMPILE_A_MAP)
+            key = (type(part), part.texture.model_dump_json())
+            if key not in made:
+                made.add(key)
+                picture = _textures(part.texture, facts, part.texture.surface_side**2)
+                making = max(making, picture.bytes)
+                texels = _texels_worn(part.texture, facts)
+                cost += Cost(picture.seconds, texels * BYTES_PER_KEPT_TEXEL)
         elif isinstance(part, Node) and part.mesh is not None:
             triangles = part.mesh.triangles
             cost += Cost(triangles * SECONDS_PER_TRIANGLE, triangles * BYTES_PER_TRIANGLE)
-    # Pictures are made one after another and kept as textures: only the largest counts twice.
+    # Equal pictures are made once, one after another, and kept: only the largest counts twice.
     return cost + Cost(samples * per_sample, making)

@@ -14,8 +14,8 @@ from starlette.routing import Match
 from api_schemas.problems import Obstruction
 from service.pointers import MESSAGES
 from service.problems import ProblemError
+from worker.jobs.child import FULL_DISK
 from worker.jobs.errors import DrainingError, QueueFullError, SlotError, StorageFullError
-from worker.jobs.files import FULL_DISK
 
 METHODS: Final = ("GET", "HEAD", "POST", "PUT", "PATCH", "DELETE")
 SOON: Final = {"Retry-After": "5"}

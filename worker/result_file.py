@@ -2,12 +2,10 @@
 
 from pathlib import Path
 
-from api_schemas.output import Output
+from api_schemas.output import MEDIA_TYPES, Output
 from api_schemas.version import VERSION
 from worker.images import image_io
 from worker.images.image import Image
-
-MEDIA_TYPES = {"png": "image/png", "exr": "image/x-exr"}
 
 
 def write(image: Image, output: Output, digest: str, path: Path) -> str:

@@ -2,6 +2,7 @@ import json
 from pathlib import Path
 
 import api_schemas
+from api_schemas.assets import AssetFacts
 from api_schemas.estimate import estimate
 from api_schemas.requests import REQUESTS, RenderRequest, TextureRequest
 
@@ -44,6 +45,49 @@ def test_every_example_is_cheap():
 
         assert cost.seconds < 10, path
         assert cost.bytes < 1e9, path
+
+
+def upload(name, side):
+    return AssetFacts(
+        sha256=name * 64,
+        kind="image",
+        media_type="image/png",
+        format="png",
+        bytes=side * side,
+        width=side,
+        height=side,
+        channels=4,
+        bits=8,
+        float=False,
+        has_alpha=True,
+    )
+
+
+def worn(*names):
+    body = json.loads(json.dumps(CAN))
+    mesh = {"type": "plane"}
+    body["scene"]["nodes"] = [
+        {
+            "mesh": mesh,
+            "surface": {
+                "technique": "unlit",
+                "color": {"texture": {"technique": "image", "asset": name * 64}},
+            },
+        }
+        for name in names
+    ]
+    return RenderRequest.model_validate(body)
+
+
+def test_uploaded_pictures_stay_as_large_as_they_are_and_equal_ones_are_kept_once():
+    facts = {name * 64: upload(name, 4096) for name in "abc"}
+    with_levels = 4096**2 * 16 * 4 / 3  # float32, four channels, and all smaller levels
+
+    one, three = (estimate(worn(*names), facts).bytes for names in ("a", "abc"))
+
+    assert three - one >= 2 * with_levels
+    assert estimate(worn(*"aaa"), facts).bytes - one < 1e4  # two more planes
+    assert one < 2 << 30
 
 
 def test_a_scene_of_many_maps_is_within_two_gibibytes():

@@ -21,21 +21,22 @@ import numpy as np
 import OpenImageIO
 from numpy.typing import NDArray
 
+from api_schemas.families import Meaning
+from api_schemas.output import SIDE_MAX, ExrType, PngBits, ToneCurve
 from worker.errors import UnusableAssetError
-from worker.images.codes import Bits, Transfer
+from worker.images.codes import Transfer
 from worker.images.colour import REC709_CHROMATICITIES
 from worker.images.display import display_codes
-from worker.images.exr_layers import PixelType, join_layers
-from worker.images.file_header import MAX_SIDE, MAX_TEXELS, Header, inspect, too_large
+from worker.images.exr_layers import join_layers
+from worker.images.file_header import TEXELS_MAX, Header, inspect, too_large
 from worker.images.file_kinds import FileKind, sniff
-from worker.images.image import Image, Meaning
+from worker.images.image import Image
 from worker.images.linearise import linearise
 from worker.images.png_filters import choose_png_filter
-from worker.images.tone_curves import ToneCurve
 from worker.images.windows import place, turn
 
-OpenImageIO.attribute("limits:resolution", MAX_SIDE)
-OpenImageIO.attribute("limits:imagesize_MB", MAX_TEXELS * 16 // 2**20)
+OpenImageIO.attribute("limits:resolution", SIDE_MAX)
+OpenImageIO.attribute("limits:imagesize_MB", TEXELS_MAX * 16 // 2**20)
 # A file whose first bytes say PNG is never offered to another decoder.
 OpenImageIO.attribute("try_all_readers", 0)
 
@@ -93,12 +94,12 @@ def measure(path: Path) -> ImageFacts:
     }
 
 
-def read(path: Path, encoding: Transfer, meaning: Meaning) -> Image:
+def read(path: Path, transfer: Transfer, meaning: Meaning) -> Image:
     """Read a picture as linear float32; colour with its alpha premultiplied.
 
     Args:
         path: A file of any name.
-        encoding: The curve of the stored numbers; alpha never has one.
+        transfer: The curve of the stored numbers; alpha never has one.
         meaning: Of the slot that takes the picture.
 
     Raises:
@@ -108,7 +109,7 @@ def read(path: Path, encoding: Transfer, meaning: Meaning) -> Image:
     with _opened(path, kind) as file:
         header = inspect(file.spec(), kind)
         decoded = _decode(file, header)
-    pixels = linearise(decoded, encoding, header.alpha, meaning, header.rec709)
+    pixels = linearise(decoded, transfer, header.alpha, meaning, header.rec709)
     return Image(turn(place(pixels, header.data, header.display), header.orientation), meaning)
 
 
@@ -116,7 +117,7 @@ def encode_png(
     image: Image,
     path: Path,
     *,
-    bits: Bits,
+    bits: PngBits,
     transfer: Transfer,
     exposure: float = 0.0,
     tone_curve: ToneCurve = "none",
@@ -142,7 +143,7 @@ def encode_exr(
     layers: Mapping[str, Image],
     path: Path,
     *,
-    pixel_type: PixelType,
+    pixel_type: ExrType,
     digest: str,
     version: str,
 ) -> None:

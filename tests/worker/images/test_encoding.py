@@ -5,13 +5,14 @@ import numpy as np
 import PIL.Image
 import pytest
 
+from api_schemas.families import Meaning
+from api_schemas.output import ExrType
 from tests.worker.images.exr_bytes import parse_exr
-from worker.images.exr_layers import PixelType
-from worker.images.image import Image, Meaning
+from worker.images.image import Image
 from worker.images.image_io import encode_exr, encode_png, measure, read
 
 
-def write_exr(path: Path, image: Image, pixel_type: PixelType = "half") -> Path:
+def write_exr(path: Path, image: Image, pixel_type: ExrType = "half") -> Path:
     encode_exr({"": image}, path, pixel_type=pixel_type, digest="ab12", version="1.2.3")
     return path
 
@@ -24,7 +25,7 @@ def noise(channels: int, meaning: Meaning = "colour", size: tuple[int, int] = (3
 
 
 @pytest.mark.parametrize("pixel_type", ["half", "float"])
-def test_four_comes_back_as_four(tmp_path: Path, pixel_type: PixelType) -> None:
+def test_four_comes_back_as_four(tmp_path: Path, pixel_type: ExrType) -> None:
     image = Image(np.full((16, 16, 4), (4, 4, 4, 1), np.float32), "colour")
 
     path = write_exr(tmp_path / "four", image, pixel_type)
