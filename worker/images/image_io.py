@@ -10,6 +10,7 @@ orientation is applied. A decoder's warning counts as damage.
 Writing makes equal bytes of equal pictures: no clock, no host.
 """
 
+import os
 import re
 import tempfile
 from collections.abc import Iterator, Mapping
@@ -32,6 +33,7 @@ from worker.images.file_header import TEXELS_MAX, Header, inspect, too_large
 from worker.images.file_kinds import FileKind, sniff
 from worker.images.image import Image
 from worker.images.linearise import linearise
+from worker.images.png_chunks import is_whole_png
 from worker.images.png_filters import choose_png_filter
 from worker.images.windows import place, turn
 
@@ -219,5 +221,9 @@ def _write(format_name: str, path: Path, spec: OpenImageIO.ImageSpec, pixels: ND
         raise OSError(f"this OpenImageIO cannot write {format_name}")
     written = file.open(str(path), spec) and file.write_image(np.ascontiguousarray(pixels))
     closed = file.close()
-    if not (written and closed):
+    whole = written and closed and (format_name != "png" or is_whole_png(path))
+    if not whole:
+        if path.parent.is_dir():  # nobody says why it failed; asking for room tells of a full disk
+            with path.open("ab") as rest:
+                os.posix_fallocate(rest.fileno(), 0, pixels.nbytes)
         raise OSError(f"cannot write the {format_name} file: {file.geterror()}")

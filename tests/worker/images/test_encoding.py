@@ -1,4 +1,7 @@
+import errno
+import resource
 import time
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -175,3 +178,22 @@ def test_a_folder_that_is_not_there_is_an_os_error(tmp_path: Path) -> None:
         encode_png(noise(3), tmp_path / "no" / "where", bits=8, transfer="srgb")
     with pytest.raises(OSError, match="cannot write"):
         write_exr(tmp_path / "no" / "where", noise(3))
+
+
+@pytest.fixture
+def small_files() -> Iterator[None]:
+    """No file may be longer than 4 KiB, as on a disk that is full."""
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (4096, before[1]))
+    yield
+    resource.setrlimit(resource.RLIMIT_FSIZE, before)
+
+
+def test_a_full_disk_is_told_by_its_number(tmp_path: Path, small_files: None) -> None:
+    image = noise(4, size=(200, 200))
+    with pytest.raises(OSError, match="too large") as png:
+        encode_png(image, tmp_path / "x.png", bits=8, transfer="srgb")
+    with pytest.raises(OSError, match="too large") as exr:
+        write_exr(tmp_path / "x.exr", image)
+
+    assert (png.value.errno, exr.value.errno) == (errno.EFBIG, errno.EFBIG)
