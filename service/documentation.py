@@ -60,10 +60,14 @@ def problems(*codes: str) -> Responses:
     return responses
 
 
-def job_links(where: str = "$response.body#/id") -> Document:
+def job_links() -> Document:
     """Describe where one may go from a job, for readers and for tests that follow links."""
     return {
-        name: {"operationId": operation, "parameters": {"job_id": where}, "description": text}
+        name: {
+            "operationId": operation,
+            "parameters": {"job_id": "$response.body#/id"},
+            "description": text,
+        }
         for name, operation, text in (
             ("self", "get_job", "How the job is."),
             ("cancel", "cancel_job", "Stop the job."),

@@ -1,14 +1,12 @@
 import itertools
 import json
-from pathlib import Path
 
-import api_schemas
 from api_schemas.assets import AssetFacts
 from api_schemas.estimate import estimate
 from api_schemas.requests import REQUESTS, RenderRequest, TextureRequest
+from tests.examples import examples
 
-EXAMPLES = Path(api_schemas.__file__).parent / "examples"
-CAN = json.loads((EXAMPLES / "renders/soda_can.json").read_text())
+_, CAN = examples()["soda_can"]
 
 
 def can(**output):
@@ -39,13 +37,11 @@ def test_supersampling_takes_time_but_tiles_keep_the_memory():
 
 
 def test_every_example_is_cheap():
-    for path in EXAMPLES.rglob("*.json"):
-        kind = {"textures": "texture", "renders": "render"}[path.parent.name]
+    for name, (kind, body) in examples().items():
+        cost = estimate(REQUESTS[kind].model_validate(body), {})
 
-        cost = estimate(REQUESTS[kind].model_validate_json(path.read_text()), {})
-
-        assert cost.seconds < 10, path
-        assert cost.bytes < 1e9, path
+        assert cost.seconds < 10, name
+        assert cost.bytes < 1e9, name
 
 
 def upload(name, side):

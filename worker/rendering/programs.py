@@ -3,7 +3,7 @@
 import re
 from collections import OrderedDict
 from collections.abc import Callable, Hashable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any, Generic, Self, TypeVar
 
 import numpy as np
@@ -35,7 +35,7 @@ class Program:
 
     number: int
     uniforms: dict[str, Uniform]
-    drawn: bool = field(default=False)
+    drawn: bool = False
 
     @classmethod
     def link(cls, vertex: Source, fragment: Source) -> Self:

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from api_schemas.estimate import BYTES_PER_SAMPLE, BYTES_PER_TILE
+from api_schemas.estimate import TILE_SIDE
 from worker.rendering.tiles import SAMPLES_MAX, Tile, pixels_per_tile, tile_from_picture, tiles
 
 
@@ -17,8 +17,8 @@ def test_tiles_cover_every_pixel_once_within_2048_samples(supersampling: int) ->
     assert (covered == 1).all()
 
 
-def test_the_estimate_counts_the_largest_tile() -> None:
-    assert BYTES_PER_TILE == SAMPLES_MAX**2 * BYTES_PER_SAMPLE
+def test_the_estimate_knows_the_largest_tile() -> None:
+    assert TILE_SIDE == SAMPLES_MAX
 
 
 @pytest.mark.parametrize("supersampling", range(1, 9))
