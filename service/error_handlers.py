@@ -12,7 +12,7 @@ from starlette.responses import Response
 from starlette.routing import Match
 
 from api_schemas.problems import Obstruction
-from service.pointers import MESSAGES
+from service.pointers import told
 from service.problems import ProblemError
 from worker.jobs.child import FULL_DISK
 from worker.jobs.errors import DrainingError, QueueFullError, SlotError, StorageFullError
@@ -72,10 +72,9 @@ async def _routing(request: Request, error: HTTPException) -> Response:
 async def _parameters(_request: Request, error: RequestValidationError) -> Response:
     problems = []
     for item in error.errors():
-        code, message = MESSAGES.get(item["type"], ("invalid", "does not fit the schema"))
-        name = item["loc"][-1]
-        told = f"parameter {name} {message.format(**item.get('ctx', {}))}"
-        problems.append(Obstruction(code=code, pointer="", message=told))
+        code, message = told(item["type"], item.get("ctx", {}))
+        message = f"parameter {item['loc'][-1]} {message}"
+        problems.append(Obstruction(code=code, pointer="", message=message))
     return ProblemError("request_invalid", problems[0].message, problems=problems).response()
 
 

@@ -23,16 +23,15 @@ def write(image: Image, output: Output, digest: str, path: Path) -> str:
             version=VERSION,
         )
         return MEDIA_TYPES["exr"]
-    is_colour = image.meaning == "colour"
     transfer = output.encoding
     if transfer == "auto":
-        transfer = "srgb" if is_colour else "linear"
+        transfer = "srgb" if image.meaning == "colour" else "linear"
     image_io.encode_png(
         image,
         path,
         bits=output.png_bits,
         transfer=transfer,
-        exposure=output.exposure if is_colour else 0.0,
-        tone_curve=output.tone_curve if is_colour else "none",
+        exposure=output.exposure,
+        tone_curve=output.tone_curve,
     )
     return MEDIA_TYPES["png"]

@@ -50,7 +50,7 @@ class ImageFacts(TypedDict):
     """What is known of a picture file that decodes without fault.
 
     `bits` and `float` are of the stored numbers, `channels` those that are read, `width` and
-    `height` as displayed; `not_numbers` and `infinities` count such values in float files.
+    `height` as displayed.
     """
 
     kind: str
@@ -62,8 +62,6 @@ class ImageFacts(TypedDict):
     format: str
     media_type: str
     has_alpha: bool
-    not_numbers: int
-    infinities: int
 
 
 def version() -> str:
@@ -91,8 +89,6 @@ def measure(path: Path) -> ImageFacts:
         "format": kind.format,
         "media_type": kind.media_type,
         "has_alpha": header.alpha != "none",
-        "not_numbers": int(np.isnan(decoded).sum()) if header.is_float else 0,
-        "infinities": int(np.isinf(decoded).sum()) if header.is_float else 0,
     }
 
 

@@ -115,7 +115,7 @@ def _failure_of(error: Exception) -> dict[str, Any]:
     if isinstance(error, OSError) and error.errno in FULL_DISK:
         return {"code": "storage_full", "message": "the disk is full", "pointer": None}
     log.error("the executor failed", exc_info=error)
-    return {"code": "internal", "message": "the worker failed unexpectedly", "pointer": None}
+    return {"code": "internal_error", "message": "the worker failed unexpectedly", "pointer": None}
 
 
 def _send(connection: Connection, *answer: object) -> None:

@@ -156,7 +156,7 @@ class SlotThread(threading.Thread):
             problem = failure("storage_full", str(error))
         except (OSError, SQLAlchemyError):
             log.exception("could not publish the result of work %s", claim.work_id)
-            problem = failure("internal", "the result could not be stored")
+            problem = failure("internal_error", "the result could not be stored")
         else:
             return outcome
         results.remove(claim.work_id)

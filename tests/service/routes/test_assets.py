@@ -3,7 +3,9 @@ import os
 
 import pytest
 
+from service.routes import assets
 from service.tenants import tenant
+from worker.images.file_kinds import FILE_KINDS
 
 
 def picture():
@@ -19,6 +21,10 @@ def asset(client):
 
 def image_request(sha256):
     return {"texture": {"technique": "image", "asset": sha256}, "output": {"size": [16, 16]}}
+
+
+def test_the_published_media_types_are_those_of_the_kinds_that_are_read():
+    assert list(assets.MEDIA_TYPES) == [kind.media_type for kind in FILE_KINDS]
 
 
 @pytest.mark.parametrize(

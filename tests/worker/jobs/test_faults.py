@@ -94,7 +94,8 @@ def test_a_memory_hog_fails_and_the_next_job_is_done(make_engine, submit, finish
 
 
 @pytest.mark.parametrize(
-    ("do", "code"), [("refuse", "refused"), ("stumble", "internal"), ("no file", "internal")]
+    ("do", "code"),
+    [("refuse", "refused"), ("stumble", "internal_error"), ("no file", "internal_error")],
 )
 def test_a_failure_is_kept_with_its_code(engine, submit, finish, do, code):
     failed = finish(engine, submit(engine, do=do))
