@@ -34,7 +34,7 @@ def test_every_private_override_is_a_hook() -> None:
 
     private = {name for name, value in vars(FloatRenderer).items() if inspect.isfunction(value)}
 
-    assert private - {"__init__", "draw"} == set(HOOKS)
+    assert private - {"__init__", "draw", "trim"} == set(HOOKS)
 
 
 def test_pyrenders_traversal_calls_the_hooks() -> None:
