@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from api_schemas.textures.constant import ConstantSpec
 
-LIMITS = np.float32([-FLOAT32_MAX, FLOAT32_MAX])
+LARGEST = np.float32(FLOAT32_MAX)
 
 
 def synthesize(spec: ConstantSpec, size: tuple[int, int], inputs: Mapping[str, Image]) -> Image:
@@ -24,6 +24,6 @@ def synthesize(spec: ConstantSpec, size: tuple[int, int], inputs: Mapping[str, I
     if len(value) in (2, 4):
         with np.errstate(over="ignore"):
             texel[:-1] *= texel[-1]
-    texel = texel.clip(*LIMITS)  # the product of two numbers may be none
+    texel = texel.clip(-LARGEST, LARGEST)  # the product of two numbers may be none
     width, height = size
     return Image(np.full((height, width, len(value)), texel, np.float32), spec.meaning)
