@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from api_schemas.base import FLOAT32_MAX
 from api_schemas.lights import AmbientLight, DirectionalLight, Light, PointLight, SpotLight
 from worker.errors import RenderError
 
@@ -26,9 +27,11 @@ def light_uniforms(lights: Sequence[Light], eye: NDArray[np.float64]) -> dict[st
             ambient += light.radiance
         else:
             rows.append(_row(light, index, eye))
+    # A product may leave float32, and infinite light on a black surface is no number.
+    ambient = np.minimum(ambient, FLOAT32_MAX)
     uniforms: dict[str, Any] = {"ambient_radiance": ambient, "light_count": len(rows)}
     if rows:
-        table = np.array(rows).reshape(-1, 3, 4)
+        table = np.clip(rows, -FLOAT32_MAX, FLOAT32_MAX).reshape(-1, 3, 4)
         names = ("light_position", "light_color", "light_axis")
         uniforms |= {name: table[:, column] for column, name in enumerate(names)}
     return uniforms
