@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import Any, Final
 
 from api_schemas.jobs import Job
-from service.negotiation import MEDIA_TYPES
+from api_schemas.output import MEDIA_TYPES
 from service.problems import MEDIA_TYPE, TABLE
 
 Document = dict[str, Any]

@@ -9,7 +9,8 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from worker.images.image import Image, Meaning
+    from api_schemas.families import Meaning
+    from worker.images.image import Image
 
 
 def joint_meaning(a: Image, b: Image) -> Meaning:
