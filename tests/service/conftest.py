@@ -1,44 +1,29 @@
 """The real app with the real engine, whose executor makes pictures of one pixel."""
 
-import sys
-import time
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
+from fastapi import FastAPI
 from starlette.testclient import TestClient
 
 from service.app import create_app
 from service.settings import Settings
+from tests.toy_service import toy_engine, toy_executors, warmed
 from worker.jobs.engine import EmbeddedEngine
-from worker.jobs.forkserver import start_forkserver
-
-EXECUTORS = str(Path(__file__).parent / "executors")
 
 
 @pytest.fixture(scope="session")
-def forkserver() -> Iterator[None]:
-    """Children get the path of modules from this process, so the executors are found by name."""
-    sys.path.insert(0, EXECUTORS)
-    start_forkserver()
-    yield
-    sys.path.remove(EXECUTORS)
+def executors() -> Iterator[None]:
+    with toy_executors():
+        yield
 
 
 @pytest.fixture(scope="module")
-def engine(forkserver: None, tmp_path_factory: pytest.TempPathFactory) -> Iterator[EmbeddedEngine]:
-    engine = EmbeddedEngine(
-        tmp_path_factory.mktemp("service") / "data",
-        slots=2,
-        memory_limit_bytes=1 << 30,
-        executor="toy_executor",
-        measurer="toy_measurer",
-    )
-    engine.start()
-    while engine.ready().warm_slots < engine.ready().slots:
-        time.sleep(0.01)
-    yield engine
-    engine.drain(0)
+def engine(executors: None, tmp_path_factory: pytest.TempPathFactory) -> Iterator[EmbeddedEngine]:
+    with toy_engine(tmp_path_factory.mktemp("service") / "data") as engine:
+        yield warmed(engine)
 
 
 @pytest.fixture(scope="module")
@@ -47,32 +32,24 @@ def settings() -> Settings:
 
 
 @pytest.fixture(scope="module")
-def app(engine: EmbeddedEngine, settings: Settings):
+def app(engine: EmbeddedEngine, settings: Settings) -> FastAPI:
     return create_app(settings, engine)
 
 
 @pytest.fixture(scope="module")
-def client(app) -> Iterator[TestClient]:
+def client(app: FastAPI) -> Iterator[TestClient]:
     with TestClient(app, raise_server_exceptions=False, follow_redirects=False) as client:
         yield client
 
 
 @pytest.fixture
-def make_client(forkserver: None, tmp_path: Path) -> Iterator[Callable[..., TestClient]]:
+def make_client(executors: None, tmp_path: Path) -> Iterator[Callable[..., TestClient]]:
     """Makes clients of services with engines of their own."""
-    started = []
+    with ExitStack() as stack:
 
-    def make(**options: int) -> TestClient:
-        engine = EmbeddedEngine(
-            tmp_path / f"data{len(started)}",
-            executor="toy_executor",
-            measurer="toy_measurer",
-            **options,
-        )
-        engine.start()
-        started.append(engine)
-        return TestClient(create_app(Settings(), engine), raise_server_exceptions=False)
+        def make(executor: str = "toy_executor", **options: int) -> TestClient:
+            folder = tmp_path / f"data{len(list(tmp_path.iterdir()))}"
+            engine = stack.enter_context(toy_engine(folder, executor=executor, **options))
+            return TestClient(create_app(Settings(), engine), raise_server_exceptions=False)
 
-    yield make
-    for engine in started:
-        engine.drain(0)
+        yield make

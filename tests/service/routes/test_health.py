@@ -1,9 +1,3 @@
-from starlette.testclient import TestClient
-
-from service.app import create_app
-from service.settings import Settings
-from worker.jobs.engine import EmbeddedEngine
-
 PERLIN = {"texture": {"technique": "perlin"}}
 
 
@@ -16,15 +10,11 @@ def test_it_is_alive_and_ready(client):
     assert ready.json()["fingerprint"] == "toy"
 
 
-def test_it_is_not_ready_before_a_worker_is_warm_nor_while_it_stops(forkserver, tmp_path):
-    engine = EmbeddedEngine(
-        tmp_path / "data", slots=1, executor="slow_to_warm_executor", measurer="toy_measurer"
-    )
-    client = TestClient(create_app(Settings(), engine))
-    engine.start()
+def test_it_is_not_ready_before_a_worker_is_warm_nor_while_it_stops(make_client):
+    client = make_client(executor="slow_to_warm_executor", slots=1)
     cold = client.get("/readyz")
     accepted = client.post("/v1/textures", json=PERLIN)
-    engine.drain(0)
+    client.app.state.engine.drain(0)
     stopping = client.get("/readyz")
     refused = client.post("/v1/textures", json=PERLIN)
 
