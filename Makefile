@@ -42,9 +42,10 @@ check: installed ## lint, format, types, import contracts, locks in step with py
 	$(python) .venv/bin/lint-imports
 	$(python) docker/lock.py check
 
-fix: installed ## repair what ruff can repair, and format
+fix: installed ## repair what ruff can repair, format, write openapi.json anew
 	$(python) -m ruff check --fix .
 	$(python) -m ruff format .
+	$(python) -m service.openapi
 
 bench: installed ## measure, and write tests/benchmarks/RESULTS.md
 	@$(gl); $(python) -m tests.benchmarks.run

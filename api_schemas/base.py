@@ -38,4 +38,6 @@ Pair = Annotated[list[Coordinate], Field(min_length=2, max_length=2)]
 Vector = Annotated[list[Coordinate], Field(min_length=3, max_length=3)]
 Color = Annotated[list[NonNegative], Field(min_length=3, max_length=3)]
 Matrix4 = Annotated[list[Coordinate], Field(min_length=16, max_length=16)]
-Sha256 = Annotated[str, Field(pattern="^[0-9a-f]{64}$", min_length=64, max_length=64)]
+SHA256_PATTERN = "^[0-9a-f]{64}$"
+Sha256 = Annotated[str, Field(pattern=SHA256_PATTERN, min_length=64, max_length=64)]
+Link = Annotated[str, Field(max_length=256)]

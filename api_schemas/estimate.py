@@ -4,11 +4,14 @@ The constants were measured on two cores of a 2.5 GHz server processor and round
 only has to tell a second from a minute and a megabyte from a gigabyte.
 """
 
-from collections.abc import Mapping
+import math
+from collections.abc import Iterator, Mapping, Sequence
 
 from api_schemas.assets import AssetFacts
 from api_schemas.cost import Cost
+from api_schemas.coverage import coverage
 from api_schemas.families import TextureSpec
+from api_schemas.geometry import IDENTITY, Affine, affine
 from api_schemas.maps import ColorMap, NumberMap
 from api_schemas.output import Output
 from api_schemas.requests import RenderRequest, Request
@@ -18,7 +21,9 @@ from api_schemas.walk import parts
 
 SECONDS_TO_START = 0.01
 SECONDS_PER_ENCODED_PIXEL = 1.5e-7
-SECONDS_PER_SAMPLE = 1e-7
+SECONDS_PER_SAMPLE = 4e-8
+SECONDS_PER_SHADED_SAMPLE = 6e-8
+SECONDS_PER_LIGHT_SAMPLE = 1e-8
 SECONDS_PER_MAP_SAMPLE = {
     "nearest": 1e-8,
     "bilinear": 1e-8,
@@ -26,14 +31,16 @@ SECONDS_PER_MAP_SAMPLE = {
     "anisotropic": 1.5e-7,
 }
 SECONDS_TO_COMPILE_A_MAP = 0.12
-SECONDS_PER_TRIANGLE = 2e-7
+SECONDS_PER_TRIANGLE = 4e-7
+SECONDS_PER_DRAWN_TRIANGLE = 5e-8
 SECONDS_PER_TEXEL = 1e-7
 BYTES_PER_TEXEL = 64
 BYTES_PER_KEPT_TEXEL = 24
 BYTES_PER_TRIANGLE = 200
 BYTES_PER_PIXEL = 48
 BYTES_PER_SAMPLE = 52
-BYTES_PER_TILE = 2048 * 2048 * BYTES_PER_SAMPLE
+TILE_SIDE = 2048
+BYTES_PER_TILE = TILE_SIDE * TILE_SIDE * BYTES_PER_SAMPLE
 
 
 def estimate(request: Request, facts: Mapping[str, AssetFacts]) -> Cost:
@@ -41,8 +48,7 @@ def estimate(request: Request, facts: Mapping[str, AssetFacts]) -> Cost:
     cost = _encoding(request.output)
     width, height = request.output.size
     if isinstance(request, RenderRequest):
-        side = request.output.supersampling
-        return cost + _drawing(request, facts, width * height * side * side)
+        return cost + _drawing(request, facts)
     return cost + _textures(request, facts, width * height)
 
 
@@ -64,20 +70,54 @@ def _textures(value: object, facts: Mapping[str, AssetFacts], pixels: int) -> Co
     return cost
 
 
-def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts], samples: int) -> Cost:
-    cost = Cost(bytes=float(min(samples * BYTES_PER_SAMPLE, BYTES_PER_TILE)))
+def _texels_worn(texture: TextureSpec, facts: Mapping[str, AssetFacts]) -> int:
+    """Return how large a texture is on a surface: uploaded pictures stay as large as they are."""
+    if isinstance(texture, ImageSpec) and texture.asset in facts:
+        return facts[texture.asset].width * facts[texture.asset].height
+    return texture.surface_side**2
+
+
+def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
+    width, height = (side * request.output.supersampling for side in request.output.size)
+    samples = width * height
+    tiles = math.ceil(width / TILE_SIDE) * math.ceil(height / TILE_SIDE)
+    cost = Cost(
+        samples * SECONDS_PER_SAMPLE, float(min(samples * BYTES_PER_SAMPLE, BYTES_PER_TILE))
+    )
+    scene = request.scene
+    lighting = SECONDS_PER_SHADED_SAMPLE + len(scene.lights) * SECONDS_PER_LIGHT_SAMPLE
     making = 0.0
-    per_sample = SECONDS_PER_SAMPLE
-    for _, part in parts(request.scene):
-        if isinstance(part, ColorMap | NumberMap):
-            pixels = part.texture.surface_side**2
-            made = _textures(part.texture, facts, pixels)
-            making = max(making, made.bytes)
-            per_sample += SECONDS_PER_MAP_SAMPLE[part.filter]
-            seconds = SECONDS_TO_COMPILE_A_MAP + made.seconds
-            cost += Cost(seconds, pixels * BYTES_PER_KEPT_TEXEL)
-        elif isinstance(part, Node) and part.mesh is not None:
-            triangles = part.mesh.triangles
+    made = set()
+    for node, placed in _placed(scene.nodes, IDENTITY):
+        if node.mesh is None:
+            continue
+        triangles = node.mesh.triangles
+        cost += Cost(tiles * triangles * SECONDS_PER_DRAWN_TRIANGLE)
+        if (mesh := node.mesh.model_dump_json()) not in made:
+            made.add(mesh)
             cost += Cost(triangles * SECONDS_PER_TRIANGLE, triangles * BYTES_PER_TRIANGLE)
-    # Pictures are made one after another and kept as textures: only the largest counts twice.
-    return cost + Cost(samples * per_sample, making)
+        maps = [part for _, part in parts(node.surface) if isinstance(part, ColorMap | NumberMap)]
+        shading = lighting + sum(SECONDS_PER_MAP_SAMPLE[item.filter] for item in maps)
+        covered = coverage(node.mesh.reach, placed, scene.camera, width / height)
+        cost += Cost(samples * covered * shading)
+        for item in maps:
+            picture = f"{type(item).__name__} {item.texture.model_dump_json()}"
+            if picture not in made:
+                made.add(picture)
+                picture_cost = _textures(item.texture, facts, item.texture.surface_side**2)
+                making = max(making, picture_cost.bytes)
+                texels = _texels_worn(item.texture, facts)
+                cost += Cost(picture_cost.seconds, texels * BYTES_PER_KEPT_TEXEL)
+            if (program := f"{picture} {item.filter} {item.wrap}") not in made:
+                made.add(program)
+                cost += Cost(SECONDS_TO_COMPILE_A_MAP)
+    # Equal things are made once, one after another, and kept: only the largest counts twice.
+    return cost + Cost(bytes=making)
+
+
+def _placed(nodes: Sequence[Node], parent: Affine | None) -> Iterator[tuple[Node, Affine | None]]:
+    for node in nodes:
+        own = affine(node.transform)
+        placed = parent @ own if parent and own else None
+        yield node, placed
+        yield from _placed(node.children, placed)

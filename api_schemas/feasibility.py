@@ -7,7 +7,7 @@ from api_schemas.camera import Camera
 from api_schemas.families import SurfaceSpec, TextureSpec
 from api_schemas.geometry import IDENTITY, Affine, affine, cross, length, triple
 from api_schemas.lights import DirectionalLight, Light, SpotLight
-from api_schemas.maps import Map
+from api_schemas.maps import MAPS_MAX, Map
 from api_schemas.requests import RenderRequest, Request
 from api_schemas.scene import Node
 from api_schemas.textures.image import ImageSpec
@@ -16,7 +16,6 @@ from api_schemas.walk import deepest, parts
 
 LEVELS_MAX = 32
 NODES_MAX = 256
-MAPS_MAX = 24
 SHORTEST_DIRECTION = 1e-12
 SMALLEST_SINE = 1e-7
 """Sine of the angle between viewing and up direction below which float32 cannot tell up."""

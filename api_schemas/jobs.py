@@ -4,7 +4,8 @@ from typing import Annotated, Literal
 
 from pydantic import AwareDatetime, Field
 
-from api_schemas.base import NonNegative, Schema, Sha256
+from api_schemas.base import Link, NonNegative, Schema, Sha256
+from api_schemas.output import MediaType
 from api_schemas.problems import CostFigures, JobFailure, Obstruction
 from api_schemas.requests import Kind, Priority, RenderRequest, TextureRequest
 
@@ -12,13 +13,12 @@ State = Literal["queued", "running", "succeeded", "failed", "cancelled"]
 JOB_ID_PATTERN = "^[0-9a-f]{32}$"
 CURSOR_PATTERN = "^[0-9a-f]{16}$"
 JobId = Annotated[str, Field(pattern=JOB_ID_PATTERN)]
-Link = Annotated[str, Field(max_length=256)]
 
 
 class Result(Schema):
     """The finished file."""
 
-    media_type: Literal["image/png", "image/x-exr"] = Field(description="What kind of file it is.")
+    media_type: MediaType = Field(description="What kind of file it is.")
     bytes: Annotated[int, Field(ge=0)] = Field(description="Its length.")
     sha256: Sha256 = Field(description="SHA-256 of its bytes; also its ETag.")
     width: Annotated[int, Field(ge=1)] = Field(description="Pixels from left to right.")

@@ -6,6 +6,9 @@ from pydantic import Field
 
 from api_schemas.base import Color, NonNegative, Schema, Vector
 
+LIGHTS_MAX = 32
+"""Lights of one scene."""
+
 ConeAngle = Annotated[float, Field(ge=0, le=1.5707963267948966)]
 
 

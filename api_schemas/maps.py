@@ -13,6 +13,9 @@ if TYPE_CHECKING:
     from api_schemas.families import Meaning
     from api_schemas.language import Coordinates, Texture
 
+MAPS_MAX = 24
+"""Maps on one surface: with eight to spare, what OpenGL lets a shader read."""
+
 Wrap = Literal["repeat", "mirror", "clamp", "border"]
 Filter = Literal["nearest", "bilinear", "trilinear", "anisotropic"]
 

@@ -1,5 +1,6 @@
 """Shapes with documented texture coordinates; text on a texture reads upright on each."""
 
+import math
 from typing import Annotated, Literal
 
 from pydantic import Field
@@ -29,6 +30,11 @@ class Cylinder(Schema):
         """How many triangles the mesh has."""
         return 2 * self.segments * self.rows + (2 * self.segments if self.caps else 0)
 
+    @property
+    def reach(self) -> float:
+        """Radius of a ball round the origin that holds the mesh."""
+        return math.hypot(self.radius, self.height)
+
 
 class Sphere(Schema):
     """A globe with its poles on y: u runs along the equator, v from south to north."""
@@ -49,6 +55,11 @@ class Sphere(Schema):
         """How many triangles the mesh has."""
         return 2 * self.segments * (self.rings - 1)
 
+    @property
+    def reach(self) -> float:
+        """Radius of a ball round the origin that holds the mesh."""
+        return self.radius
+
 
 class Plane(Schema):
     """A rectangle in the middle of the world: u along its width, v along its height."""
@@ -64,6 +75,11 @@ class Plane(Schema):
     def triangles(self) -> int:
         """How many triangles the mesh has."""
         return 2
+
+    @property
+    def reach(self) -> float:
+        """Radius of a ball round the origin that holds the mesh."""
+        return math.hypot(self.width, self.height) / 2
 
 
 class Box(Schema):
@@ -82,6 +98,11 @@ class Box(Schema):
         """How many triangles the mesh has."""
         return 12
 
+    @property
+    def reach(self) -> float:
+        """Radius of a ball round the origin that holds the mesh."""
+        return math.hypot(self.width, self.height, self.depth) / 2
+
 
 class Torus(Schema):
     """A ring round the y axis: u runs round the axis, v round the tube."""
@@ -96,6 +117,11 @@ class Torus(Schema):
     def triangles(self) -> int:
         """How many triangles the mesh has."""
         return 2 * self.segments * self.rings
+
+    @property
+    def reach(self) -> float:
+        """Radius of a ball round the origin that holds the mesh."""
+        return self.radius + self.tube_radius
 
 
 class Disk(Schema):
@@ -112,6 +138,11 @@ class Disk(Schema):
     def triangles(self) -> int:
         """How many triangles the mesh has."""
         return self.segments
+
+    @property
+    def reach(self) -> float:
+        """Radius of a ball round the origin that holds the mesh."""
+        return self.radius
 
 
 Mesh = Annotated[Cylinder | Sphere | Plane | Box | Torus | Disk, Field(discriminator="type")]

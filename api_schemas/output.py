@@ -1,5 +1,6 @@
 """What the finished picture looks like as a file."""
 
+from collections.abc import Mapping
 from typing import Annotated, Literal
 
 from pydantic import Field
@@ -7,8 +8,17 @@ from pydantic import Field
 from api_schemas.base import WHOLE, Schema
 
 SIDE_MAX = 16384
+"""Pixels along a side of anything: the largest texture OpenGL takes."""
+
 Side = Annotated[int, Field(ge=1, le=SIDE_MAX), WHOLE]
 Format = Literal["png", "exr"]
+MediaType = Literal["image/png", "image/x-exr"]
+PngBits = Literal[8, 16]
+ExrType = Literal["half", "float"]
+ToneCurve = Literal["none", "reinhard", "aces"]
+
+MEDIA_TYPES: Mapping[Format, MediaType] = {"png": "image/png", "exr": "image/x-exr"}
+"""The media type of each file format."""
 
 
 class Output(Schema):
@@ -22,10 +32,8 @@ class Output(Schema):
         description="png for screens, exr for linear light; without one the Accept header decides, "
         "else png.",
     )
-    png_bits: Literal[8, 16] = Field(default=8, description="Bits per channel of a PNG.")
-    exr_type: Literal["half", "float"] = Field(
-        default="half", description="Precision of an EXR: 11 or 24 bits."
-    )
+    png_bits: PngBits = Field(default=8, description="Bits per channel of a PNG.")
+    exr_type: ExrType = Field(default="half", description="Precision of an EXR: 11 or 24 bits.")
     encoding: Literal["auto", "srgb", "linear"] = Field(
         default="auto",
         description="How a PNG holds light: auto is sRGB for colour and the bare numbers for data.",
@@ -34,7 +42,7 @@ class Output(Schema):
         default=0.0,
         description="Stops by which a PNG of colour is brightened; an EXR keeps the light.",
     )
-    tone_curve: Literal["none", "reinhard", "aces"] = Field(
+    tone_curve: ToneCurve = Field(
         default="none",
         description="How a PNG of colour keeps what is brighter than white: cut off, or rolled off "
         "softly, or like film.",

@@ -9,7 +9,7 @@ from pydantic import Field
 from api_schemas.base import Schema
 from api_schemas.camera import Camera
 from api_schemas.language import Surface
-from api_schemas.lights import Light
+from api_schemas.lights import LIGHTS_MAX, Light
 from api_schemas.meshes import Mesh
 from api_schemas.transforms import Placement, Transform
 
@@ -36,7 +36,7 @@ class Scene(Schema):
     """Everything a picture is made of."""
 
     camera: Camera = Field(description="The eye.")
-    lights: Annotated[list[Light], Field(max_length=32)] = Field(
+    lights: Annotated[list[Light], Field(max_length=LIGHTS_MAX)] = Field(
         default=[], description="What shines; without any, only emission and unlit surfaces show."
     )
     nodes: Annotated[list[Node], Field(max_length=256)] = Field(description="What is there.")

@@ -1,12 +1,8 @@
 """What the service can do, told by itself."""
 
-from typing import Annotated
-
 from pydantic import Field, JsonValue
 
-from api_schemas.base import Schema
-
-Link = Annotated[str, Field(max_length=256)]
+from api_schemas.base import Link, Schema
 
 
 class TechniqueSummary(Schema):

@@ -3,6 +3,8 @@
 from collections.abc import Callable, Iterator
 from typing import TypeVar
 
+from pydantic.fields import FieldInfo
+
 from api_schemas.base import Schema
 from api_schemas.families import Meaning
 from api_schemas.maps import Slot
@@ -39,6 +41,12 @@ def deepest(value: object, kinds: tuple[type[Schema], ...], pointer: str = "") -
     return (0, pointer)
 
 
+def meaning_of(field: FieldInfo, above: Meaning) -> Meaning:
+    """Return how a texture in a field is read: as its slot says, else as what holds it."""
+    slot = next((item for item in field.metadata if isinstance(item, Slot)), None)
+    return slot.meaning if slot else above
+
+
 def rewrite(
     model: Model, change: Callable[[Schema, Meaning], Schema], meaning: Meaning = "colour"
 ) -> Model:
@@ -48,9 +56,8 @@ def rewrite(
     """
     updates = {}
     for name, field in type(model).model_fields.items():
-        slot = next((item for item in field.metadata if isinstance(item, Slot)), None)
         before = getattr(model, name)
-        after = _rewrite_value(before, change, slot.meaning if slot else meaning)
+        after = _rewrite_value(before, change, meaning_of(field, meaning))
         if after is not before:
             updates[name] = after
     copy = model.model_copy(update=updates) if updates else model

@@ -46,7 +46,10 @@ def main() -> int:
     )
     logging.getLogger("alembic").setLevel(logging.WARNING)
     start_forkserver()
-    engine = make_engine(settings)
+    try:
+        engine = make_engine(settings)
+    except OSError as error:
+        return _refused(f"cannot use the data folder {settings.data}: {error.strerror}")
     app = create_app(settings, engine)
     config = uvicorn.Config(
         app,
@@ -62,11 +65,15 @@ def main() -> int:
         listener = listening(settings.host, settings.port)
         engine.start()
     except (OSError, DataFolderInUseError) as error:
-        print(f"texloom: {error}", file=sys.stderr)  # noqa: T201
-        return 1
+        return _refused(str(error))
     print(f"Texloom serves {address(listener)} (documentation: /docs)", flush=True)  # noqa: T201
     server.run([listener])
     return 0
+
+
+def _refused(why: str) -> int:
+    print(f"texloom: {why}", file=sys.stderr)  # noqa: T201
+    return 1
 
 
 def listening(host: str, port: int) -> socket.socket:

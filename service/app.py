@@ -16,7 +16,7 @@ from api_schemas.version import VERSION
 from service import error_handlers
 from service.headers import SameOriginWrites, SecurityHeaders
 from service.openapi_document import document
-from service.routes import assets, health, jobs, renders, techniques, textures, validate
+from service.routes import assets, front, health, jobs, renders, techniques, textures, validate
 from service.settings import Settings
 from worker.jobs.engine import EmbeddedEngine
 
@@ -58,7 +58,7 @@ def create_app(settings: Settings, engine: EmbeddedEngine | None = None) -> Fast
     app.state.engine = engine
     app.state.drained = threading.Event()
     app.state.measuring = CapacityLimiter(MEASURED_AT_ONCE)
-    for resource in (textures, renders, validate, jobs, assets, techniques, health):
+    for resource in (front, textures, renders, validate, jobs, assets, techniques, health):
         app.include_router(resource.router)
     error_handlers.install(app)
     app.add_middleware(SameOriginWrites, allowed=settings.cors_origins)

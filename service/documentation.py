@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import Any, Final
 
 from api_schemas.jobs import Job
-from service.negotiation import MEDIA_TYPES
+from api_schemas.output import MEDIA_TYPES
 from service.problems import MEDIA_TYPE, TABLE
 
 Document = dict[str, Any]
@@ -60,10 +60,14 @@ def problems(*codes: str) -> Responses:
     return responses
 
 
-def job_links(where: str = "$response.body#/id") -> Document:
+def job_links() -> Document:
     """Describe where one may go from a job, for readers and for tests that follow links."""
     return {
-        name: {"operationId": operation, "parameters": {"job_id": where}, "description": text}
+        name: {
+            "operationId": operation,
+            "parameters": {"job_id": "$response.body#/id"},
+            "description": text,
+        }
         for name, operation, text in (
             ("self", "get_job", "How the job is."),
             ("cancel", "cancel_job", "Stop the job."),

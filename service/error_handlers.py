@@ -12,8 +12,9 @@ from starlette.responses import Response
 from starlette.routing import Match
 
 from api_schemas.problems import Obstruction
-from service.pointers import MESSAGES
+from service.pointers import told
 from service.problems import ProblemError
+from worker.jobs.child import FULL_DISK
 from worker.jobs.errors import DrainingError, QueueFullError, SlotError, StorageFullError
 
 METHODS: Final = ("GET", "HEAD", "POST", "PUT", "PATCH", "DELETE")
@@ -33,6 +34,7 @@ def install(app: FastAPI) -> None:
         QueueFullError: _queue_full,
         DrainingError: _draining,
         StorageFullError: _storage_full,
+        OSError: _no_disk,
         SlotError: _no_slot,
         ClientDisconnect: _gone,
         Exception: _mistake,
@@ -70,10 +72,9 @@ async def _routing(request: Request, error: HTTPException) -> Response:
 async def _parameters(_request: Request, error: RequestValidationError) -> Response:
     problems = []
     for item in error.errors():
-        code, message = MESSAGES.get(item["type"], ("invalid", "does not fit the schema"))
-        name = item["loc"][-1]
-        told = f"parameter {name} {message.format(**item.get('ctx', {}))}"
-        problems.append(Obstruction(code=code, pointer="", message=told))
+        code, message = told(item["type"], item.get("ctx", {}))
+        message = f"parameter {item['loc'][-1]} {message}"
+        problems.append(Obstruction(code=code, pointer="", message=message))
     return ProblemError("request_invalid", problems[0].message, problems=problems).response()
 
 
@@ -88,6 +89,13 @@ async def _draining(_request: Request, _error: DrainingError) -> Response:
 
 async def _storage_full(_request: Request, _error: StorageFullError) -> Response:
     return ProblemError("storage_full", headers=SOON).response()
+
+
+async def _no_disk(request: Request, error: OSError) -> Response:
+    """An upload is written as it comes, and may be what fills the disk."""
+    if error.errno not in FULL_DISK:
+        raise error
+    return await _storage_full(request, StorageFullError("the disk is full"))
 
 
 async def _no_slot(_request: Request, error: SlotError) -> Response:

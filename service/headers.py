@@ -64,4 +64,9 @@ class SameOriginWrites:
         await self._app(scope, receive, send)
 
     def _is_trusted(self, origin: str, host: str) -> bool:
-        return origin in self._allowed or "*" in self._allowed or urlsplit(origin).netloc == host
+        if origin in self._allowed or "*" in self._allowed:
+            return True
+        try:
+            return urlsplit(origin).netloc == host
+        except ValueError:  # no URL at all
+            return False

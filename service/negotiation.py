@@ -1,17 +1,15 @@
 """What a caller wants to get back, and whether it wants to wait: Accept and Prefer."""
 
 import re
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
 
 from starlette.requests import Request
 
-from api_schemas.output import Format
+from api_schemas.output import MEDIA_TYPES, Format
 from service.problems import ProblemError
 
 JSON: Final = "application/json"
-MEDIA_TYPES: Final[Mapping[Format, str]] = {"png": "image/png", "exr": "image/x-exr"}
 LONGEST_WAIT_SECONDS: Final = 60
 WEIGHT: Final = re.compile(r"q=(0(?:\.\d{0,3})?|1(?:\.0{0,3})?)")
 WAIT: Final = re.compile(r"wait=\"?(\d{1,9})\"?")
@@ -39,7 +37,7 @@ def wish(request: Request, asked: Format | None, default_wait_seconds: int) -> W
     """
     accept = request.headers.get("accept")
     weights = {name: quality(accept, media_type) for name, media_type in MEDIA_TYPES.items()}
-    formats: Sequence[Format] = [asked] if asked else list(MEDIA_TYPES)
+    formats = [asked] if asked else list(MEDIA_TYPES)
     best = max(formats, key=lambda name: weights[name])
     json_weight = quality(accept, JSON)
     if not weights[best] and not json_weight:

@@ -51,6 +51,12 @@ def obstructions(error: ValidationError, model: type[Schema]) -> list[Obstructio
     return [_obstruction(item, model) for item in details[:MOST_TOLD]]
 
 
+def told(kind: str, context: Mapping[str, Any]) -> tuple[str, str]:
+    """Return code and message of a mistake by pydantic's error type and context."""
+    code, message = MESSAGES.get(kind, ("invalid", "does not fit the schema"))
+    return code, message.format(**context)
+
+
 def json_pointer(keys: Sequence[str | int]) -> str:
     """Join keys to a JSON pointer (RFC 6901)."""
     return "".join("/" + str(key).replace("~", "~0").replace("/", "~1") for key in keys)
@@ -63,8 +69,8 @@ def _obstruction(error: ErrorDetails, model: type[Schema]) -> Obstruction:
         keys.append(context["discriminator"].strip("'"))
     while keys and len(str(keys[-1])) > LONGEST_KEY:
         keys.pop()
-    code, message = MESSAGES.get(error["type"], ("invalid", "does not fit the schema"))
-    return Obstruction(code=code, pointer=json_pointer(keys), message=message.format(**context))
+    code, message = told(error["type"], context)
+    return Obstruction(code=code, pointer=json_pointer(keys), message=message)
 
 
 def _keys(location: Sequence[str | int], model: type[Schema]) -> Iterator[str | int]:

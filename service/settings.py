@@ -66,14 +66,15 @@ class Settings(BaseSettings):
     )
     body_limit_bytes: Annotated[int, Field(ge=1024)] = Field(
         default=MEBIBYTE,
-        description="Longest JSON body. The largest scene the language allows takes a tenth of it.",
+        description="Longest JSON body. Room for the largest scene that the other limits allow.",
     )
     upload_limit_bytes: Annotated[int, Field(ge=1024)] = Field(
         default=256 * MEBIBYTE,
         description="Longest upload. An 8192 x 4096 half float panorama, uncompressed.",
     )
     measure_limit_seconds: Annotated[float, Field(gt=0)] = Field(
-        default=20.0, description="Time to look into an upload. A minute's worth of pixels fits."
+        default=20.0,
+        description="Time to look into an upload. Ten times what the largest picture takes.",
     )
     wait_seconds: Annotated[int, Field(ge=0, le=60)] = Field(
         default=30,

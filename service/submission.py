@@ -8,11 +8,12 @@ from starlette.requests import Request
 from starlette.responses import Response
 
 from api_schemas.cost import Cost
+from api_schemas.output import MEDIA_TYPES
 from api_schemas.requests import Request as PictureRequest
 from service.admission import admitted, examine, kind_of
 from service.engine_access import asset_facts
 from service.job_views import RETRY_SECONDS, job_url, require_succeeded, result, result_url, view
-from service.negotiation import MEDIA_TYPES, Wish, wish
+from service.negotiation import Wish, wish
 from service.problems import ProblemError
 from service.settings import Settings
 from service.stored_files import stored_file

@@ -66,10 +66,7 @@ def measured(engine: EmbeddedEngine, path: Path, sha256: str, limit_seconds: flo
         code = error.failure["code"]
         known = code if TABLE.get(code, (0, ""))[0] == 409 else "asset_unusable"
         raise ProblemError(known, error.failure["message"]) from None
-    own = {"sha256": sha256, "bytes": path.stat().st_size}
-    return AssetFacts.model_validate(
-        {name: facts[name] for name in AssetFacts.model_fields if name in facts} | own
-    )
+    return AssetFacts.model_validate(facts | {"sha256": sha256, "bytes": path.stat().st_size})
 
 
 @contextmanager

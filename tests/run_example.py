@@ -39,8 +39,7 @@ def _upload(path: Path, asset: str, folder: Path) -> AssetFacts:
     stored.parent.mkdir(parents=True, exist_ok=True)
     shutil.copy(path, stored)
     measured = measure_asset.run({"path": str(stored)}, folder / "unused", _unreported)
-    known = {name: measured[name] for name in AssetFacts.model_fields if name in measured}
-    return AssetFacts(**known, sha256=asset, bytes=path.stat().st_size)
+    return AssetFacts(**measured, sha256=asset, bytes=path.stat().st_size)
 
 
 def _unreported(_share: float, _stage: str) -> None:

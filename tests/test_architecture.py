@@ -55,6 +55,23 @@ def test_no_module_is_longer_than_300_lines() -> None:
     assert too_long == []
 
 
+def test_the_map_of_the_architecture_is_that_of_the_house() -> None:
+    page = (ROOT / "ARCHITECTURE.md").read_text().partition("\n## The map\n")[2].partition("## ")[0]
+    top = ""
+    told: dict[str, set[str]] = {}
+    for line in page.splitlines():
+        top = match[1] if (match := re.match(r"(\w+)/", line)) else top
+        told.setdefault(top, set()).update(re.findall(r"\b\w+\.py\b", line))
+
+    there = {
+        path.name for folder in ("api_schemas", "worker") for path in (ROOT / folder).glob("*.py")
+    }
+
+    assert told["api_schemas"] | told["worker"] == there - {"__init__.py"}
+    assert all((ROOT / "service" / name).is_file() for name in told["service"])
+    assert len(told["service"]) > 5
+
+
 @pytest.mark.parametrize(("family", "technique"), TECHNIQUES)
 def test_a_technique_has_its_implementation(family: str, technique: str) -> None:
     assert (ROOT / IMPLEMENTATIONS[family].format(technique)).is_file()

@@ -4,8 +4,8 @@
     └── WorkerError             code, message, pointer
         ├── UnusableAssetError  asset_unusable | asset_unsupported | asset_too_large
         ├── AssetMissingError   asset_missing
-        ├── OverBudgetError     over_budget
-        └── RenderError         render_failed
+        └── RenderError         render_failed | camera_degenerate | light_degenerate
+                                | transform_singular
 
 A message says what is wrong, which value and which bound; it never repeats the input.
 `as_failure` is how an error crosses processes: as data, never as a pickled exception.
@@ -54,12 +54,6 @@ class AssetMissingError(WorkerError):
     """A request names an asset that is not stored."""
 
     default_code = "asset_missing"
-
-
-class OverBudgetError(WorkerError):
-    """A valid request needs more time or memory than one job may take."""
-
-    default_code = "over_budget"
 
 
 class RenderError(WorkerError):

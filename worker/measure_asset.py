@@ -3,21 +3,21 @@
 A light sibling of the executor of jobs, with the same two functions, for a child of its own.
 """
 
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 from worker.errors import AssetMissingError
 from worker.images import image_io
+from worker.stages import Report
 
 
-def warm(report: Callable[[float, str], None]) -> dict[str, Any]:
+def warm(report: Report) -> dict[str, Any]:
     """Load the decoders."""
     report(1.0, "ready")
     return {"fingerprint": image_io.version()}
 
 
-def run(request: dict[str, Any], out: Path, report: Callable[[float, str], None]) -> dict[str, Any]:
+def run(request: dict[str, Any], out: Path, report: Report) -> dict[str, Any]:
     """Decode and measure the file at `request["path"]`; nothing is written to `out`.
 
     Returns:

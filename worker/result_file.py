@@ -2,12 +2,10 @@
 
 from pathlib import Path
 
-from api_schemas.output import Output
+from api_schemas.output import MEDIA_TYPES, Output
 from api_schemas.version import VERSION
 from worker.images import image_io
 from worker.images.image import Image
-
-MEDIA_TYPES = {"png": "image/png", "exr": "image/x-exr"}
 
 
 def write(image: Image, output: Output, digest: str, path: Path) -> str:
@@ -25,16 +23,15 @@ def write(image: Image, output: Output, digest: str, path: Path) -> str:
             version=VERSION,
         )
         return MEDIA_TYPES["exr"]
-    is_colour = image.meaning == "colour"
     transfer = output.encoding
     if transfer == "auto":
-        transfer = "srgb" if is_colour else "linear"
+        transfer = "srgb" if image.meaning == "colour" else "linear"
     image_io.encode_png(
         image,
         path,
         bits=output.png_bits,
         transfer=transfer,
-        exposure=output.exposure if is_colour else 0.0,
-        tone_curve=output.tone_curve if is_colour else "none",
+        exposure=output.exposure,
+        tone_curve=output.tone_curve,
     )
     return MEDIA_TYPES["png"]

@@ -1,4 +1,4 @@
-"""One job from request to file, as a list of steps: find, synthesise or render, encode, store.
+"""One job from request to file, as a list of steps: find, synthesise or render, encode, hash.
 
 This is the executor that the door in `worker.jobs` knows by name and loads in its children.
 """

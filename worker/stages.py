@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 Report = Callable[[float, str], None]
+"""Told the share of something that is done, 0..1, and the name of its stage."""
 
 
 class Stages:

@@ -1,12 +1,15 @@
 """Compiles everything once, into the caches in the data folder that the service's children read.
 
-`python -m worker.warm` heeds the service's own settings TEXLOOM_DATA and TEXLOOM_GL.
+`python -m worker.warm` heeds the service's own settings TEXLOOM_DATA, TEXLOOM_GL and
+TEXLOOM_NATIVE_CPU.
 """
 
 import os
 import sys
 import time
 from pathlib import Path
+
+from pydantic import TypeAdapter
 
 from worker.jobs.environment import child_environment
 
@@ -17,7 +20,7 @@ def main() -> None:
     os.environ |= child_environment(
         data,
         gl=os.environ.get("TEXLOOM_GL", "osmesa"),
-        native_cpu=os.environ.get("TEXLOOM_NATIVE_CPU", "").lower() in {"1", "true"},
+        native_cpu=TypeAdapter(bool).validate_python(os.environ.get("TEXLOOM_NATIVE_CPU", "false")),
     )
     for cache in ("NUMBA_CACHE_DIR", "MESA_SHADER_CACHE_DIR"):
         Path(os.environ[cache]).mkdir(parents=True, exist_ok=True)

@@ -42,7 +42,9 @@ class PhongSpec(SurfaceSpec):
         default=[1.0, 1.0, 1.0], description="Linear colour of the highlight (Cs)."
     )
     exponent: MappableNonNegative = Field(
-        default=32.0, description="How tight the highlight is (n): larger is smaller and shinier."
+        default=32.0,
+        description="How tight the highlight is (n): larger is smaller and shinier, and what a map "
+        "reads below 0 counts as 0.",
     )
     emission: MappableColor = Field(
         default=[0.0, 0.0, 0.0], description="Linear radiance the surface adds by itself."

@@ -11,6 +11,7 @@ from starlette.requests import Request
 from starlette.responses import Response
 
 from api_schemas.assets import AssetFacts
+from api_schemas.base import SHA256_PATTERN
 from service.documentation import BINARY, ETAG, IF_HEADERS, LOCATION, Responses, header, problems
 from service.engine_access import Configuration, Engine, asset_facts
 from service.negotiation import JSON, quality, require_accepted
@@ -22,7 +23,6 @@ from worker.jobs.engine import EmbeddedEngine
 
 router = APIRouter(prefix="/v1/assets", tags=["assets"])
 
-SHA256_PATTERN: Final = "^[0-9a-f]{64}$"
 WELL_FORMED: Final = re.compile(SHA256_PATTERN)
 MEDIA_TYPES: Final = (
     "image/png",

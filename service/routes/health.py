@@ -1,38 +1,14 @@
 """Whether the service lives, and whether it can work."""
 
-from typing import Annotated, Literal
-
 from fastapi import APIRouter
-from pydantic import Field
 from starlette.requests import Request
 
-from api_schemas.base import Schema
+from api_schemas.health import Alive, Ready
 from service.documentation import problems
 from service.engine_access import Engine
 from service.problems import ProblemError
 
 router = APIRouter(tags=["health"])
-
-Count = Annotated[int, Field(ge=0)]
-
-
-class Alive(Schema):
-    """The process answers."""
-
-    status: Literal["alive"] = "alive"
-
-
-class Ready(Schema):
-    """The service takes work."""
-
-    status: Literal["ready"] = "ready"
-    slots: Count = Field(description="Jobs that can be done at a time.")
-    warm_slots: Count = Field(description="Workers that have compiled everything.")
-    queued: Count = Field(description="Jobs that wait.")
-    running: Count = Field(description="Jobs being done.")
-    fingerprint: str | None = Field(
-        description="The platform the pictures are made on; equal ones give equal bytes."
-    )
 
 
 @router.get("/livez", operation_id="livez", summary="Is it alive?")

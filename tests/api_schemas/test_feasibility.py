@@ -2,6 +2,7 @@ import math
 
 import pytest
 
+from api_schemas import feasibility
 from api_schemas.feasibility import assets_in, obstacles
 from api_schemas.requests import RenderRequest, TextureRequest
 
@@ -116,6 +117,21 @@ def test_a_scene_has_up_to_256_nodes(count, codes):
     halves = [node({}, *[node({})] * (count - 129)), *[node({})] * 128]
 
     assert [code for code, _ in found(scene(nodes=halves))] == codes
+
+
+def test_a_surface_has_up_to_so_many_maps(monkeypatch):
+    maps = {name: {"texture": {"technique": "perlin"}} for name in ("exponent", "diffuse_color")}
+    request = scene(
+        nodes=[
+            {"mesh": {"type": "box"}},
+            {"mesh": {"type": "box"}, "surface": {"technique": "phong", **maps}},
+        ]
+    )
+    assert found(request) == []
+
+    monkeypatch.setattr(feasibility, "MAPS_MAX", 1)  # no surface of today has more than 24
+
+    assert found(request) == [("too_many_maps", "/scene/nodes/1/surface")]
 
 
 def test_assets_are_found_wherever_a_texture_may_stand():

@@ -18,10 +18,10 @@ from typing import Any
 
 import numpy as np
 
-from api_schemas.families import TextureSpec
+from api_schemas.families import Meaning, TextureSpec
 from api_schemas.output import RenderOutput
 from api_schemas.scene import Scene
-from worker.images.image import Image, Meaning
+from worker.images.image import Image
 
 SIDE = 512
 FRAMES = 9

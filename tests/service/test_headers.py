@@ -25,7 +25,10 @@ def test_every_answer_tells_browsers_to_be_careful(client, path):
     assert headers["content-security-policy"].startswith("default-src 'none'")
 
 
-@pytest.mark.parametrize("origin", [PAGE, "null", "http://testserver.evil", "http://127.0.0.1:9"])
+@pytest.mark.parametrize(
+    "origin",
+    [PAGE, "null", "http://testserver.evil", "http://127.0.0.1:9", "http://[bad", "http://a]b"],
+)
 def test_a_page_from_elsewhere_may_not_write(client, origin):
     for write in ("POST /v1/assets", "POST /v1/textures", "DELETE /v1/jobs/x"):
         method, path = write.split()

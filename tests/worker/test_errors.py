@@ -4,7 +4,6 @@ import pytest
 
 from worker.errors import (
     AssetMissingError,
-    OverBudgetError,
     RenderError,
     UnusableAssetError,
     WorkerError,
@@ -16,7 +15,6 @@ from worker.errors import (
     [
         (UnusableAssetError, "asset_unusable"),
         (AssetMissingError, "asset_missing"),
-        (OverBudgetError, "over_budget"),
         (RenderError, "render_failed"),
     ],
 )

@@ -5,50 +5,32 @@ y up; a camera looks along its own -z.
 """
 
 import math
-from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from api_schemas.camera import LookAt, OrthographicCamera, PerspectiveCamera
-from api_schemas.transforms import MatrixPlacement, Placement, Transform
+from api_schemas.geometry import affine
+from api_schemas.transforms import MatrixPlacement, Transform
 from worker.errors import RenderError
 
 Matrix = NDArray[np.float64]
-_PARALLEL = 1e-9  # the sine below which two directions are one; distances in a scene are >= 1e-6
+_NO_LENGTH = 1e-13  # below every length and sine that api_schemas.feasibility lets through
 
 
 def parent_from_node(transform: Transform) -> Matrix:
-    """Turn a request's transform into a matrix: scale, then turn, then move, or its own matrix."""
-    if isinstance(transform, MatrixPlacement):
-        return np.array(transform.matrix, dtype=np.float64).reshape(4, 4).T
-    return _placed(transform)
-
-
-def _placed(placement: Placement) -> Matrix:
-    matrix = np.eye(4)
-    matrix[:3, :3] = rotation(placement.rotation) * np.array(placement.scale)
-    matrix[:3, 3] = placement.translation
-    return matrix
-
-
-def rotation(quaternion: Sequence[float]) -> Matrix:
-    """Turn a quaternion x, y, z, w of any length but zero into a 3 x 3 rotation.
+    """Turn a request's transform into a matrix: scale, then turn, then move, or its own matrix.
 
     Raises:
-        RenderError: The quaternion has no length (`transform_singular`).
+        RenderError: There is no such map: no turn, or a last row that is not 0 0 0 1
+            (`transform_singular`).
     """
-    length = math.hypot(*quaternion)
-    if length == 0:
-        raise RenderError("rotation is the zero quaternion", code="transform_singular")
-    x, y, z, w = (component / length for component in quaternion)
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-        ]
-    )
+    placed = affine(transform)
+    if placed is None:
+        raise RenderError("the transform is not an affine map", code="transform_singular")
+    matrix = np.eye(4)
+    matrix[:3] = np.stack([placed.x, placed.y, placed.z, placed.origin], axis=1)
+    return matrix
 
 
 def world_from_camera(pose: LookAt | MatrixPlacement) -> Matrix:
@@ -82,7 +64,7 @@ def _orthonormal(matrix: Matrix) -> Matrix:
 
 def _unit(vector: NDArray[np.float64], complaint: str) -> NDArray[np.float64]:
     length = np.linalg.norm(vector)
-    if not length > _PARALLEL:
+    if not length > _NO_LENGTH:
         raise RenderError(complaint, code="camera_degenerate")
     return vector / length
 

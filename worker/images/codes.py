@@ -12,10 +12,10 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from api_schemas.output import PngBits
 from worker.images.colour import linear_from_srgb, srgb_from_linear
 
 Transfer = Literal["srgb", "linear"]
-Bits = Literal[8, 16]
 Codes = NDArray[np.uint8] | NDArray[np.uint16]
 
 _BLOCK = 1 << 15
@@ -26,7 +26,7 @@ def linear_from_codes(codes: Codes, transfer: Transfer) -> NDArray[np.float32]:
     return _decoding_table(codes.dtype.itemsize, transfer).take(codes)
 
 
-def codes_from_linear(linear: NDArray[np.float32], bits: Bits, transfer: Transfer) -> Codes:
+def codes_from_linear(linear: NDArray[np.float32], bits: PngBits, transfer: Transfer) -> Codes:
     """Encode linear float32 of any shape to the nearest codes.
 
     Below 0 and NaN become 0, above 1 the highest code.
@@ -77,7 +77,7 @@ def _encode_srgb_16(values: NDArray[np.float32]) -> Codes:
 
 
 @cache
-def _code_floors(bits: Bits) -> NDArray[np.float32]:
+def _code_floors(bits: PngBits) -> NDArray[np.float32]:
     """Give the least float32 that each code is nearest to, -inf for 0, and inf past the top."""
     top = 2**bits - 1
     middles = (np.arange(1, top + 1, dtype=np.float64) - 0.5) / top
@@ -92,7 +92,7 @@ def _encode_linear(values: NDArray[np.float32], top: int) -> NDArray[np.float64]
     return values.astype(np.float64) * top + 0.5
 
 
-_ENCODERS: dict[tuple[Bits, Transfer], Callable[[NDArray[np.float32]], NDArray[Any]]] = {
+_ENCODERS: dict[tuple[PngBits, Transfer], Callable[[NDArray[np.float32]], NDArray[Any]]] = {
     (8, "srgb"): _encode_srgb_8,
     (16, "srgb"): _encode_srgb_16,
     (8, "linear"): partial(_encode_linear, top=255),

@@ -2,10 +2,11 @@
 
 import numpy as np
 
-from worker.images.codes import Bits, Codes, Transfer, codes_from_linear
+from api_schemas.output import PngBits, ToneCurve
+from worker.images.codes import Codes, Transfer, codes_from_linear
 from worker.images.colour import unpremultiply
 from worker.images.image import Image
-from worker.images.tone_curves import ToneCurve, apply_tone_curve, expose
+from worker.images.tone_curves import apply_tone_curve, expose
 
 _BLOCK_TEXELS = 1 << 16
 
@@ -13,7 +14,7 @@ _BLOCK_TEXELS = 1 << 16
 # Pictures may hold infinity and NaN.
 @np.errstate(over="ignore", invalid="ignore")
 def display_codes(
-    image: Image, bits: Bits, transfer: Transfer, exposure: float, tone_curve: ToneCurve
+    image: Image, bits: PngBits, transfer: Transfer, exposure: float, tone_curve: ToneCurve
 ) -> Codes:
     """Expose, bend and encode a picture, alpha straight and linear: shape (H, W, C).
 

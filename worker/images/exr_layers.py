@@ -2,14 +2,12 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from api_schemas.output import ExrType
 from worker.images.image import Image
-
-PixelType = Literal["half", "float"]
 
 _LARGEST_HALF = np.float32(65504)
 
@@ -23,11 +21,11 @@ class Channels:
     """The channels of one file: a name and a type each, and their numbers, (H, W, channels)."""
 
     names: tuple[str, ...]
-    types: tuple[PixelType, ...]
+    types: tuple[ExrType, ...]
     pixels: NDArray[np.float32]
 
 
-def join_layers(layers: Mapping[str, Image], pixel_type: PixelType) -> Channels:
+def join_layers(layers: Mapping[str, Image], pixel_type: ExrType) -> Channels:
     """Put pictures of one size side by side.
 
     The layer named "" is the picture itself: its channels are R, G, B, A (or Y, A; data R, G). A
@@ -44,7 +42,7 @@ def join_layers(layers: Mapping[str, Image], pixel_type: PixelType) -> Channels:
     if len(sizes) != 1:
         raise ValueError(f"layers must be of one size; they are of {sorted(sizes)}")
     names: list[str] = []
-    types: list[PixelType] = []
+    types: list[ExrType] = []
     parts: list[NDArray[np.float32]] = []
     for layer, image in layers.items():
         layer_type = "float" if layer and image.meaning == "data" else pixel_type

@@ -6,15 +6,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from api_schemas.output import SIDE_MAX
 from worker.errors import UnusableAssetError
 from worker.images.colour import REC709_CHROMATICITIES, rec709_from
 from worker.images.file_kinds import FileKind
 from worker.images.linearise import Alpha
 from worker.images.windows import Window
 
-# The largest GL texture; and 1 GiB as float32 RGBA.
-MAX_SIDE = 16384
-MAX_TEXELS = 2**26
+TEXELS_MAX = 2**26  # 1 GiB as float32 RGBA
 
 # Bits of the stored numbers, and whether they are floats.
 _NUMBERS = {"uint8": (8, False), "uint16": (16, False), "half": (16, True), "float": (32, True)}
@@ -68,7 +67,7 @@ def inspect(spec: Any, kind: FileKind) -> Header:
     full = Window(spec.full_x, spec.full_y, spec.full_width, spec.full_height)
     display = full if is_exr else data
     for window in (data, display):
-        if max(window.width, window.height) > MAX_SIDE or window.width * window.height > MAX_TEXELS:
+        if max(window.width, window.height) > SIDE_MAX or window.width * window.height > TEXELS_MAX:
             raise too_large(f"{window.width} x {window.height} texels")
     channels, alpha = _choose_channels(spec)
     bits, is_float = _choose_numbers(spec, channels)
@@ -87,7 +86,7 @@ def inspect(spec: Any, kind: FileKind) -> Header:
 def too_large(size: str) -> UnusableAssetError:
     """Refuse a size, given in words."""
     return UnusableAssetError(
-        f"the picture has {size}; the most is {MAX_SIDE} a side and {MAX_TEXELS} in all",
+        f"the picture has {size}; the most is {SIDE_MAX} a side and {TEXELS_MAX} in all",
         code="asset_too_large",
     )
 

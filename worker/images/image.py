@@ -1,12 +1,11 @@
 """The one pixel type inside the worker."""
 
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-Meaning = Literal["colour", "data"]
+from api_schemas.families import Meaning
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,6 +10,7 @@ orientation is applied. A decoder's warning counts as damage.
 Writing makes equal bytes of equal pictures: no clock, no host.
 """
 
+import os
 import re
 import tempfile
 from collections.abc import Iterator, Mapping
@@ -21,21 +22,23 @@ import numpy as np
 import OpenImageIO
 from numpy.typing import NDArray
 
+from api_schemas.families import Meaning
+from api_schemas.output import SIDE_MAX, ExrType, PngBits, ToneCurve
 from worker.errors import UnusableAssetError
-from worker.images.codes import Bits, Transfer
+from worker.images.codes import Transfer
 from worker.images.colour import REC709_CHROMATICITIES
 from worker.images.display import display_codes
-from worker.images.exr_layers import PixelType, join_layers
-from worker.images.file_header import MAX_SIDE, MAX_TEXELS, Header, inspect, too_large
+from worker.images.exr_layers import join_layers
+from worker.images.file_header import TEXELS_MAX, Header, inspect, too_large
 from worker.images.file_kinds import FileKind, sniff
-from worker.images.image import Image, Meaning
+from worker.images.image import Image
 from worker.images.linearise import linearise
+from worker.images.png_chunks import is_whole_png
 from worker.images.png_filters import choose_png_filter
-from worker.images.tone_curves import ToneCurve
 from worker.images.windows import place, turn
 
-OpenImageIO.attribute("limits:resolution", MAX_SIDE)
-OpenImageIO.attribute("limits:imagesize_MB", MAX_TEXELS * 16 // 2**20)
+OpenImageIO.attribute("limits:resolution", SIDE_MAX)
+OpenImageIO.attribute("limits:imagesize_MB", TEXELS_MAX * 16 // 2**20)
 # A file whose first bytes say PNG is never offered to another decoder.
 OpenImageIO.attribute("try_all_readers", 0)
 
@@ -47,7 +50,7 @@ class ImageFacts(TypedDict):
     """What is known of a picture file that decodes without fault.
 
     `bits` and `float` are of the stored numbers, `channels` those that are read, `width` and
-    `height` as displayed; `not_numbers` and `infinities` count such values in float files.
+    `height` as displayed.
     """
 
     kind: str
@@ -59,8 +62,6 @@ class ImageFacts(TypedDict):
     format: str
     media_type: str
     has_alpha: bool
-    not_numbers: int
-    infinities: int
 
 
 def version() -> str:
@@ -88,17 +89,15 @@ def measure(path: Path) -> ImageFacts:
         "format": kind.format,
         "media_type": kind.media_type,
         "has_alpha": header.alpha != "none",
-        "not_numbers": int(np.isnan(decoded).sum()) if header.is_float else 0,
-        "infinities": int(np.isinf(decoded).sum()) if header.is_float else 0,
     }
 
 
-def read(path: Path, encoding: Transfer, meaning: Meaning) -> Image:
+def read(path: Path, transfer: Transfer, meaning: Meaning) -> Image:
     """Read a picture as linear float32; colour with its alpha premultiplied.
 
     Args:
         path: A file of any name.
-        encoding: The curve of the stored numbers; alpha never has one.
+        transfer: The curve of the stored numbers; alpha never has one.
         meaning: Of the slot that takes the picture.
 
     Raises:
@@ -108,7 +107,7 @@ def read(path: Path, encoding: Transfer, meaning: Meaning) -> Image:
     with _opened(path, kind) as file:
         header = inspect(file.spec(), kind)
         decoded = _decode(file, header)
-    pixels = linearise(decoded, encoding, header.alpha, meaning, header.rec709)
+    pixels = linearise(decoded, transfer, header.alpha, meaning, header.rec709)
     return Image(turn(place(pixels, header.data, header.display), header.orientation), meaning)
 
 
@@ -116,7 +115,7 @@ def encode_png(
     image: Image,
     path: Path,
     *,
-    bits: Bits,
+    bits: PngBits,
     transfer: Transfer,
     exposure: float = 0.0,
     tone_curve: ToneCurve = "none",
@@ -142,7 +141,7 @@ def encode_exr(
     layers: Mapping[str, Image],
     path: Path,
     *,
-    pixel_type: PixelType,
+    pixel_type: ExrType,
     digest: str,
     version: str,
 ) -> None:
@@ -222,5 +221,9 @@ def _write(format_name: str, path: Path, spec: OpenImageIO.ImageSpec, pixels: ND
         raise OSError(f"this OpenImageIO cannot write {format_name}")
     written = file.open(str(path), spec) and file.write_image(np.ascontiguousarray(pixels))
     closed = file.close()
-    if not (written and closed):
+    whole = written and closed and (format_name != "png" or is_whole_png(path))
+    if not whole:
+        if path.parent.is_dir():  # nobody says why it failed; asking for room tells of a full disk
+            with path.open("ab") as rest:
+                os.posix_fallocate(rest.fileno(), 0, pixels.nbytes)
         raise OSError(f"cannot write the {format_name} file: {file.geterror()}")

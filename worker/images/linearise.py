@@ -5,9 +5,9 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from api_schemas.families import Meaning
 from worker.images.codes import Transfer, linear_from_codes
 from worker.images.colour import linear_from_srgb, premultiply, unpremultiply
-from worker.images.image import Meaning
 
 Alpha = Literal["none", "straight", "associated"]
 

@@ -1,13 +1,10 @@
 """Exposure and tone curves: from scene light to what a display can show."""
 
-from typing import Literal
-
 import numpy as np
 from numpy.typing import NDArray
 
+from api_schemas.output import ToneCurve
 from worker.images.colour import luminance
-
-ToneCurve = Literal["none", "reinhard", "aces"]
 
 
 def expose(colour: NDArray[np.float32], stops: float) -> NDArray[np.float32]:

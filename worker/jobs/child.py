@@ -17,18 +17,18 @@ import os
 import resource
 import signal
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from multiprocessing import parent_process
 from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any, Protocol, cast
 
+from worker.stages import Report
+
 PR_SET_PDEATHSIG = 1
 FULL_DISK = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 log = logging.getLogger(__name__)
-
-Report = Callable[[float, str], None]
 
 
 class Executor(Protocol):
@@ -115,7 +115,7 @@ def _failure_of(error: Exception) -> dict[str, Any]:
     if isinstance(error, OSError) and error.errno in FULL_DISK:
         return {"code": "storage_full", "message": "the disk is full", "pointer": None}
     log.error("the executor failed", exc_info=error)
-    return {"code": "internal", "message": "the worker failed unexpectedly", "pointer": None}
+    return {"code": "internal_error", "message": "the worker failed unexpectedly", "pointer": None}
 
 
 def _send(connection: Connection, *answer: object) -> None:

@@ -11,8 +11,9 @@ from typing import Any, Final
 
 from sqlalchemy import Connection, func, select, update
 
+from worker.errors import Failure
 from worker.jobs.database import Database
-from worker.jobs.errors import Failure, failure
+from worker.jobs.errors import failure
 from worker.jobs.schema import work
 
 MOST_CRASHES: Final = 3

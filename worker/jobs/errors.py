@@ -9,15 +9,7 @@ JobsError
 └── MeasuringError        an upload cannot be used; carries the failure as data
 """
 
-from typing import TypedDict
-
-
-class Failure(TypedDict):
-    """Why something did not succeed, in the form in which it crosses processes."""
-
-    code: str
-    message: str
-    pointer: str | None
+from worker.errors import Failure
 
 
 def failure(code: str, message: str) -> Failure:

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Any, Final, Literal
 
-from worker.jobs.errors import Failure
+from worker.errors import Failure
 
 Priority = Literal["interactive", "batch"]
 State = Literal["queued", "running", "succeeded", "failed", "cancelled"]

@@ -14,7 +14,6 @@ from worker.jobs.errors import QueueFullError
 from worker.jobs.job import PRIORITIES, Job, Priority, State
 from worker.jobs.schema import jobs, work
 
-CURSOR_PATTERN: Final = "^[0-9a-f]{16}$"
 RECENT: Final = 32
 LARGEST_SEQUENCE: Final = 2**63 - 1
 
@@ -91,7 +90,7 @@ class Requests:
         """Jobs of the tenant, newest first, and the cursor of the next page if there is one.
 
         Raises:
-            ValueError: the cursor is not hexadecimal (see CURSOR_PATTERN).
+            ValueError: the cursor is not hexadecimal.
         """
         query = _JOBS.where(jobs.c.tenant == tenant)
         if cursor is not None:

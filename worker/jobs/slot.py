@@ -15,9 +15,11 @@ from multiprocessing.connection import Connection, wait
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Literal
 
-from worker.jobs.child import Report, serve
-from worker.jobs.errors import Failure, SlotError, failure
+from worker.errors import Failure
+from worker.jobs.child import serve
+from worker.jobs.errors import SlotError, failure
 from worker.jobs.forkserver import CONTEXT
+from worker.stages import Report
 
 if TYPE_CHECKING:
     from multiprocessing.process import BaseProcess

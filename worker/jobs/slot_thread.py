@@ -138,6 +138,7 @@ class SlotThread(threading.Thread):
         if outcome.status == "ok":
             outcome = self._publish(claim, half, outcome)
         if outcome.status != "ok":
+            half.unlink(missing_ok=True)  # it may be what fills the disk that the record needs
             self._until_recorded(lambda: self._record(claim, outcome))
 
     def _publish(self, claim: Claim, half: Path, outcome: Outcome) -> Outcome:
@@ -155,7 +156,7 @@ class SlotThread(threading.Thread):
             problem = failure("storage_full", str(error))
         except (OSError, SQLAlchemyError):
             log.exception("could not publish the result of work %s", claim.work_id)
-            problem = failure("internal", "the result could not be stored")
+            problem = failure("internal_error", "the result could not be stored")
         else:
             return outcome
         results.remove(claim.work_id)

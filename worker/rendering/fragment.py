@@ -38,7 +38,7 @@ def _fragment(layout: ShadingLayout) -> str:
         )
     lines.append("    Surface surface;")
     lines += [f"    surface.{p.name} = {_value(p)};" for p in layout.parameters]
-    lines += ["    color = shade(point, surface);", "}"]
+    lines += ["    color = holdable(shade(point, surface));", "}"]
     return "\n".join(lines)
 
 

@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from api_schemas.base import FLOAT32_MAX
 from api_schemas.lights import AmbientLight, DirectionalLight, Light, PointLight, SpotLight
 from worker.errors import RenderError
 
-MOST_LIGHTS = 32
 _SHARPEST_EDGE = 1e-6  # of a cone, in cosines; equal angles would divide by zero
 
 
@@ -18,7 +18,7 @@ def light_uniforms(lights: Sequence[Light], eye: NDArray[np.float64]) -> dict[st
     """Give the lights seen from the eye, in the request's order; ambient lights add up.
 
     Raises:
-        RenderError: A light has no direction, or there are more than 32.
+        RenderError: A light has no direction (`light_degenerate`).
     """
     ambient = np.zeros(3)
     rows = []
@@ -27,11 +27,11 @@ def light_uniforms(lights: Sequence[Light], eye: NDArray[np.float64]) -> dict[st
             ambient += light.radiance
         else:
             rows.append(_row(light, index, eye))
-    if len(rows) > MOST_LIGHTS:
-        raise RenderError(f"{len(rows)} lights; {MOST_LIGHTS} is the most", code="over_budget")
+    # A product may leave float32, and infinite light on a black surface is no number.
+    ambient = np.minimum(ambient, FLOAT32_MAX)
     uniforms: dict[str, Any] = {"ambient_radiance": ambient, "light_count": len(rows)}
     if rows:
-        table = np.array(rows).reshape(-1, 3, 4)
+        table = np.clip(rows, -FLOAT32_MAX, FLOAT32_MAX).reshape(-1, 3, 4)
         names = ("light_position", "light_color", "light_axis")
         uniforms |= {name: table[:, column] for column, name in enumerate(names)}
     return uniforms
@@ -59,5 +59,9 @@ def _row(
 def _direction(vector: Sequence[float], index: int) -> NDArray[np.float64]:
     length = math.hypot(*vector)
     if length == 0:
-        raise RenderError("a light's direction has no length", f"/scene/lights/{index}/direction")
+        raise RenderError(
+            "a light's direction has no length",
+            f"/scene/lights/{index}/direction",
+            code="light_degenerate",
+        )
     return np.array(vector) / length

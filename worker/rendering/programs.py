@@ -1,8 +1,9 @@
 """GLSL programs with typed uniforms: a wrong name or a wrong shape is an error, never silence."""
 
 import re
+from collections import OrderedDict
 from collections.abc import Callable, Hashable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any, Generic, Self, TypeVar
 
 import numpy as np
@@ -15,6 +16,8 @@ _DECLARATION = re.compile(r"^uniform (?P<type>\w+) (?P<names>[^;]+);", re.MULTIL
 _NAME = re.compile(r"(?P<name>\w+)(?:\[(?P<count>\d+)\])?")
 _FLOATS = {"float": 1, "vec2": 2, "vec3": 3, "vec4": 4, "mat3": 9, "mat4": 16}
 _WHOLE = ("int", "bool", "sampler2D")
+PROGRAMS_MAX = 64
+"""With its compiled variants a program takes about 2 MB, and maps combine without end."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,7 +35,7 @@ class Program:
 
     number: int
     uniforms: dict[str, Uniform]
-    drawn: bool = field(default=False)
+    drawn: bool = False
 
     @classmethod
     def link(cls, vertex: Source, fragment: Source) -> Self:
@@ -90,13 +93,23 @@ class ProgramCache(Generic[P]):
     def __init__(self, kind: type[P]) -> None:
         """Begin with no programs; `kind` is what they will be."""
         self._kind = kind
-        self._programs: dict[Hashable, P] = {}
+        self._programs: OrderedDict[Hashable, P] = OrderedDict()
 
     def get(self, key: Hashable, sources: Callable[[], tuple[Source, Source]]) -> P:
         """Return the program of this key, linking it from the sources the first time."""
         if key not in self._programs:
             self._programs[key] = self._kind.link(*sources())
+        self._programs.move_to_end(key)
         return self._programs[key]
+
+    def trim(self) -> None:
+        """Free the least recently used beyond the bound; call it between scenes."""
+        while len(self._programs) > PROGRAMS_MAX:
+            self._programs.popitem(last=False)[1].delete()
+
+    def __len__(self) -> int:
+        """How many programs are kept."""
+        return len(self._programs)
 
     def delete(self) -> None:
         """Free all programs."""

@@ -202,7 +202,6 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         if view.orthographic:
             frame.eye = np.append(view.world_from_camera[:3, 2], 0.0)
         self._frame = frame
-        self._samplers.trim()
         self.viewport_width, self.viewport_height = size
         self.render(scene, RenderFlags.OFFSCREEN)
         check("drawing a tile")
@@ -283,6 +282,11 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
 
     def _read_main_framebuffer(self, scene: Any, flags: int) -> None:
         """Read nothing: the tile is resolved first."""
+
+    def trim(self) -> None:
+        """Free what exceeds the bounds; call it when nothing is being drawn."""
+        self._programs.trim()
+        self._samplers.trim()
 
     def delete(self) -> None:
         """Free programs and samplers."""

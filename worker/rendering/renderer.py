@@ -3,17 +3,17 @@
 import atexit
 import functools
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from api_schemas.families import TextureSpec
+from api_schemas.families import Meaning, TextureSpec
 from api_schemas.language import FAMILIES
 from api_schemas.output import RenderOutput
 from api_schemas.scene import Scene
-from worker.images.image import Image, Meaning
+from worker.images.image import Image
 from worker.rendering.gl_context import GLContext, check
 from worker.rendering.lighting import light_uniforms
 from worker.rendering.pyrender_adapter import FloatRenderer, pyrender_scene
@@ -21,8 +21,7 @@ from worker.rendering.scene_builder import SceneBuilder, TextureMaker
 from worker.rendering.shading import surface_fields
 from worker.rendering.targets import TargetPair
 from worker.rendering.tiles import pixels_per_tile, tile_from_picture, tiles
-
-Report = Callable[[float, str], None]
+from worker.stages import Report
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,6 +101,7 @@ def render(scene: Scene, output: RenderOutput, textures: TextureMaker, report: R
     }
     counts = {"triangles": built.triangles, "texels": built.texels}
     engine.builder.trim()
+    engine.renderer.trim()
     report(1.0, "draw")
     return Rendering(Image(pixels, "colour"), timings, counts)
 

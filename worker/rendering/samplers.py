@@ -62,7 +62,7 @@ class SamplerCache:
         return self._samplers[key]
 
     def trim(self) -> None:
-        """Free all samplers if there are many; call it before a frame, not while one is drawn."""
+        """Free all samplers if there are many; call it between scenes."""
         if len(self._samplers) > _MOST_SAMPLERS:
             self.delete()
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from api_schemas import meshes
 from api_schemas.camera import OrthographicCamera
-from api_schemas.families import SurfaceSpec, TextureSpec
+from api_schemas.families import Meaning, SurfaceSpec, TextureSpec
 from api_schemas.scene import Node, Scene
 from api_schemas.surfaces.phong import PhongSpec
 from worker.geometry import primitives
@@ -18,7 +18,7 @@ from worker.geometry.transforms import (
     parent_from_node,
     world_from_camera,
 )
-from worker.images.image import Image, Meaning
+from worker.images.image import Image
 from worker.images.pyramids import mip_chain
 from worker.rendering.cache import ByteCache
 from worker.rendering.pyrender_adapter import Drawable, UploadedMesh, View, delete_mesh, upload_mesh

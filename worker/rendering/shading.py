@@ -12,15 +12,13 @@ from typing import Any, Protocol, get_args
 
 import numpy as np
 
-from api_schemas.families import SurfaceSpec, TextureSpec
+from api_schemas.families import Meaning, SurfaceSpec, TextureSpec
 from api_schemas.maps import ColorMap, Filter, Map, NumberMap, TextureTransform
 from worker.errors import RenderError
-from worker.images.image import Meaning
 from worker.rendering.chunks import chunk
 from worker.rendering.samplers import Sampling
 from worker.rendering.textures import Texture, TextureFormat
 
-MOST_PICTURES = 24
 _STRUCT = re.compile(r"^struct Surface \{(?P<fields>.*?)^\};", re.MULTILINE | re.DOTALL)
 _FIELD = re.compile(r"^ +(?P<type>float|vec3|int) (?P<name>\w+);", re.MULTILINE)
 _MEANINGS: dict[str, Meaning] = {"vec3": "colour", "float": "data"}
@@ -103,11 +101,7 @@ def surface_fields(technique: str) -> dict[str, str]:
 
 
 def shade(surface: SurfaceSpec, texture_of: TextureSource) -> Shading:
-    """Lay out a surface's parameters: plain values as uniforms, maps as lookups in pictures.
-
-    Raises:
-        RenderError: More than 24 different pictures.
-    """
+    """Lay out a surface's parameters: plain values as uniforms, maps as lookups in pictures."""
     plan = _Plan(texture_of)
     surface = surface.filled()
     parameters = tuple(
@@ -115,11 +109,6 @@ def shade(surface: SurfaceSpec, texture_of: TextureSource) -> Shading:
         for name, kind in surface_fields(surface.technique).items()
     )
     pictures = tuple(plan.pictures)
-    if len(pictures) > MOST_PICTURES:
-        raise RenderError(
-            f"the surface reads {len(pictures)} different pictures; {MOST_PICTURES} is the most",
-            code="over_budget",
-        )
     layout = ShadingLayout(
         technique=surface.technique,
         parameters=parameters,

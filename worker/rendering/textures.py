@@ -6,11 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from worker.errors import RenderError
-from worker.images.image import Meaning
+from api_schemas.families import Meaning
 from worker.rendering.gl_context import GL, check, floats
-
-SIDE_MAX = 16384
 
 _INTERNAL = {1: GL.GL_R32F, 2: GL.GL_RG32F, 3: GL.GL_RGB32F, 4: GL.GL_RGBA32F}
 _LAYOUT = {1: GL.GL_RED, 2: GL.GL_RG, 3: GL.GL_RGB, 4: GL.GL_RGBA}
@@ -55,14 +52,9 @@ class Texture:
             meaning: What the channels are.
 
         Raises:
-            RenderError: A side is more than 16384 texels, or OpenGL has no room.
+            RenderError: OpenGL has no room.
         """
         height, width, channels = levels[0].shape
-        if max(height, width) > SIDE_MAX:
-            raise RenderError(
-                f"a texture is {width} x {height} texels; a side may have {SIDE_MAX}",
-                code="over_budget",
-            )
         number = int(GL.glGenTextures(1))
         GL.glBindTexture(GL.GL_TEXTURE_2D, number)
         GL.glPixelStorei(GL.GL_UNPACK_ALIGNMENT, 1)

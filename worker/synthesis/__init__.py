@@ -18,14 +18,15 @@ from collections import Counter
 from typing import TYPE_CHECKING, cast
 
 from api_schemas.families import Meaning, TextureSpec
-from api_schemas.maps import Slot
 from api_schemas.textures.image import ImageSpec
+from api_schemas.walk import meaning_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
     from types import ModuleType
 
     from worker.images.image import Image
+    from worker.stages import Report
 
     Key = tuple[str, Meaning]
     Load = Callable[[ImageSpec, Meaning], Image]
@@ -72,7 +73,7 @@ def techniques() -> list[str]:
     return sorted(name for name in names if not name.startswith("_"))
 
 
-def warm(report: Callable[[float, str], None]) -> None:
+def warm(report: Report) -> None:
     """Compile every kernel, or load it from the cache; `report` gets share done and name."""
     names = techniques()
     for done, name in enumerate(names):
@@ -88,8 +89,7 @@ def _slots(spec: TextureSpec, meaning: Meaning) -> dict[str, tuple[TextureSpec, 
     for name, field in type(spec).model_fields.items():
         value = getattr(spec, name)
         if isinstance(value, TextureSpec):
-            slot = next((item for item in field.metadata if isinstance(item, Slot)), None)
-            slots[name] = (value, slot.meaning if slot else meaning)
+            slots[name] = (value, meaning_of(field, meaning))
     return slots
 
 

@@ -45,13 +45,14 @@ def octaves_of(spec: PerlinSpec, pixels_per_tile: float) -> list[Octave]:
     octaves = []
     for n, gain in enumerate(gains):
         cells = spec.frequency * spec.lacunarity**n
-        weight = gain / sum(gains) * _visibility(pixels_per_tile / cells)
+        weight = gain / sum(gains) * visibility(pixels_per_tile / cells)
         if weight > 0:
             shift = (193 * n % SHIFT_UNITS, 145 * n % SHIFT_UNITS)
             octaves.append(Octave(cells=cells, weight=weight, layer=n, shift=shift))
     return octaves
 
 
-def _visibility(pixels_per_cell: float) -> float:
+def visibility(pixels_per_cell: float) -> float:
+    """Return which share of its strength a layer of noise keeps at so many pixels per cell."""
     s = min(max((pixels_per_cell - 2) / 2, 0.0), 1.0)
     return s * s * (3 - 2 * s)

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from worker.synthesis._counter_hash import mixed
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -37,13 +39,4 @@ def permutation(seed: int) -> NDArray[np.int32]:
     if seed == 0:
         return reference
     position = np.arange(256, dtype=np.uint64)
-    return reference[np.argsort(_mixed(position + (np.uint64(seed) << np.uint64(32))))]
-
-
-def _mixed(counter: NDArray[np.uint64]) -> NDArray[np.uint64]:
-    """Scramble 64-bit counters one to one: the finaliser of splitmix64 (Steele et al., 2014)."""
-    state = counter * np.uint64(0x9E3779B97F4A7C15)
-    state = (state ^ (state >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
-    state = (state ^ (state >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
-    mixed: NDArray[np.uint64] = state ^ (state >> np.uint64(31))
-    return mixed
+    return reference[np.argsort(mixed(position + (np.uint64(seed) << np.uint64(32))))]

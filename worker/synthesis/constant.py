@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from api_schemas.base import FLOAT32_MAX
 from worker.images.image import Image
 
 if TYPE_CHECKING:
@@ -13,12 +14,16 @@ if TYPE_CHECKING:
 
     from api_schemas.textures.constant import ConstantSpec
 
+LARGEST = np.float32(FLOAT32_MAX)
+
 
 def synthesize(spec: ConstantSpec, size: tuple[int, int], inputs: Mapping[str, Image]) -> Image:
     """Fill (width, height) with a colour of 1 to 4 channels; straight alpha is multiplied in."""
     value = spec.value if isinstance(spec.value, list) else [spec.value]
     texel = np.array(value, np.float32)
     if len(value) in (2, 4):
-        texel[:-1] *= texel[-1]
+        with np.errstate(over="ignore"):
+            texel[:-1] *= texel[-1]
+    texel = texel.clip(-LARGEST, LARGEST)  # the product of two numbers may be none
     width, height = size
     return Image(np.full((height, width, len(value)), texel, np.float32), spec.meaning)

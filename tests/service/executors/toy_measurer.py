@@ -21,8 +21,6 @@ def run(request, out, report):
         "format": "png",
         "media_type": "image/png",
         "has_alpha": False,
-        "not_numbers": 0,
-        "infinities": 0,
     }
 
 

@@ -3,7 +3,9 @@ import os
 
 import pytest
 
+from service.routes import assets
 from service.tenants import tenant
+from worker.images.file_kinds import FILE_KINDS
 
 
 def picture():
@@ -19,6 +21,10 @@ def asset(client):
 
 def image_request(sha256):
     return {"texture": {"technique": "image", "asset": sha256}, "output": {"size": [16, 16]}}
+
+
+def test_the_published_media_types_are_those_of_the_kinds_that_are_read():
+    assert list(assets.MEDIA_TYPES) == [kind.media_type for kind in FILE_KINDS]
 
 
 @pytest.mark.parametrize(
@@ -195,3 +201,17 @@ def test_nobody_sees_or_uses_another_tenants_uploads(app, client, asset):
         del app.dependency_overrides[tenant]
 
     assert client.get(location).status_code == 200
+
+
+@pytest.mark.parametrize("size", [100, 1 << 19])
+def test_an_upload_that_the_disk_has_no_room_for_is_503(
+    client, engine, monkeypatch, tmp_path, size
+):
+    full = tmp_path / "full"
+    full.symlink_to("/dev/full")
+    monkeypatch.setattr(engine.assets, "new_upload", lambda: full)
+
+    response = client.post("/v1/assets", content=b"x" * size)
+
+    assert (response.status_code, response.json()["code"]) == (503, "storage_full")
+    assert "retry-after" in response.headers

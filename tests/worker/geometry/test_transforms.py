@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 
 from api_schemas.camera import LookAt, OrthographicCamera, PerspectiveCamera
-from api_schemas.transforms import MatrixPlacement, Placement
+from api_schemas.feasibility import obstacles
+from api_schemas.requests import RenderRequest
+from api_schemas.transforms import MatrixPlacement, Placement, Transform
 from worker.errors import RenderError
 from worker.geometry import transforms
 
@@ -24,16 +26,22 @@ def test_a_placement_scales_then_turns_then_moves() -> None:
 
 
 def test_a_quaternions_length_does_not_matter() -> None:
-    np.testing.assert_allclose(
-        transforms.rotation([2.0, 0.0, 0.0, 2.0]),
-        [[1, 0, 0], [0, 0, -1], [0, 1, 0]],
-        atol=1e-15,
-    )
+    turned = transforms.parent_from_node(Placement(rotation=[2.0, 0.0, 0.0, 2.0]))
+
+    np.testing.assert_allclose(turned[:3, :3], [[1, 0, 0], [0, 0, -1], [0, 1, 0]], atol=1e-15)
 
 
-def test_the_zero_quaternion_is_refused_by_name() -> None:
+@pytest.mark.parametrize(
+    "transform",
+    [
+        Placement(rotation=[0.0] * 4),
+        MatrixPlacement(matrix=np.diag([1.0, 1, 1, 2]).ravel().tolist()),
+    ],
+    ids=["no turn", "not affine"],
+)
+def test_what_is_no_affine_map_is_refused_by_name(transform: Transform) -> None:
     with pytest.raises(RenderError) as caught:
-        transforms.rotation([0.0, 0.0, 0.0, 0.0])
+        transforms.parent_from_node(transform)
 
     assert caught.value.code == "transform_singular"
 
@@ -57,6 +65,29 @@ def test_look_at_puts_the_target_in_the_middle_and_up_upwards() -> None:
     np.testing.assert_allclose(target, [0, 0, -distance, 1], atol=1e-14)
     assert abs(up[0]) < 1e-15
     assert up[1] > 0
+
+
+@pytest.mark.parametrize(
+    "pose",
+    [
+        LookAt(eye=[0.0, 0.0, 2e-12]),
+        LookAt(eye=[0.0, 0.0, 1.0], up=[0.0, 2e-12, 0.0]),
+        LookAt(eye=[0.0, 0.0, 1.0], up=[0.0, 2e-7, 1.0]),
+        MatrixPlacement(matrix=np.diag([1e-9, 1e-9, 1e-9, 1.0]).ravel().tolist()),
+    ],
+    ids=["near", "short up", "almost along up", "small matrix"],
+)
+def test_a_camera_at_the_bounds_of_what_is_let_in_is_a_rotation(
+    pose: LookAt | MatrixPlacement,
+) -> None:
+    request = RenderRequest.model_validate(
+        {"scene": {"camera": {"type": "perspective", "pose": pose.model_dump()}, "nodes": []}}
+    )
+    assert obstacles(request) == []
+
+    turn = transforms.world_from_camera(pose)[:3, :3]
+
+    np.testing.assert_allclose(turn @ turn.T, np.eye(3), atol=1e-9)
 
 
 @pytest.mark.parametrize(

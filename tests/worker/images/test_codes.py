@@ -1,7 +1,8 @@
 import numpy as np
 import pytest
 
-from worker.images.codes import Bits, Transfer, codes_from_linear, linear_from_codes
+from api_schemas.output import PngBits
+from worker.images.codes import Transfer, codes_from_linear, linear_from_codes
 
 
 def srgb_formula(linear: np.ndarray) -> np.ndarray:
@@ -15,7 +16,7 @@ def formula(linear: np.ndarray, transfer: Transfer) -> np.ndarray:
 
 
 @pytest.mark.parametrize("bits", [8, 16])
-def test_every_srgb_code_decodes_to_the_formula_rounded_once(bits: Bits) -> None:
+def test_every_srgb_code_decodes_to_the_formula_rounded_once(bits: PngBits) -> None:
     kind = np.uint8 if bits == 8 else np.uint16
     codes = np.arange(2**bits).astype(kind)
     encoded = codes / (2**bits - 1)
@@ -26,7 +27,7 @@ def test_every_srgb_code_decodes_to_the_formula_rounded_once(bits: Bits) -> None
 
 @pytest.mark.parametrize("transfer", ["srgb", "linear"])
 @pytest.mark.parametrize("bits", [8, 16])
-def test_every_code_comes_back(bits: Bits, transfer: Transfer) -> None:
+def test_every_code_comes_back(bits: PngBits, transfer: Transfer) -> None:
     codes = np.arange(2**bits).astype(np.uint8 if bits == 8 else np.uint16)
 
     assert np.array_equal(
@@ -37,7 +38,7 @@ def test_every_code_comes_back(bits: Bits, transfer: Transfer) -> None:
 @pytest.mark.parametrize("transfer", ["srgb", "linear"])
 @pytest.mark.parametrize("bits", [8, 16])
 def test_encoding_gives_the_code_nearest_to_the_float64_formula(
-    bits: Bits, transfer: Transfer
+    bits: PngBits, transfer: Transfer
 ) -> None:
     top = 2**bits - 1
     middles = (np.arange(top) + 0.5) / top
@@ -56,7 +57,7 @@ def test_encoding_gives_the_code_nearest_to_the_float64_formula(
 
 @pytest.mark.parametrize("transfer", ["srgb", "linear"])
 @pytest.mark.parametrize("bits", [8, 16])
-def test_what_is_outside_or_no_number_is_clipped(bits: Bits, transfer: Transfer) -> None:
+def test_what_is_outside_or_no_number_is_clipped(bits: PngBits, transfer: Transfer) -> None:
     values = np.array([np.nan, -np.inf, -1, -0.0, 1, 1.0000001, 7, np.inf], np.float32)
     top = 2**bits - 1
 

@@ -1,8 +1,9 @@
 import numpy as np
 import pytest
 
+from api_schemas.families import Meaning
 from worker.images.exr_layers import join_layers
-from worker.images.image import Image, Meaning
+from worker.images.image import Image
 
 
 def flat(channels: int, meaning: Meaning, value: float = 1.0) -> Image:

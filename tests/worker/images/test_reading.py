@@ -121,8 +121,7 @@ def test_every_half_value_is_read(corpus: Path) -> None:
     finite = np.isfinite(pixels[..., 0]).sum()
     assert finite == 2**16 - 2 * 2**10  # all exponents but the one of NaN and infinity
     assert len(halves) >= finite
-    facts = measure(path)
-    assert (facts["not_numbers"], facts["infinities"]) == (3 * (2 * 2**10 - 2), 3 * 2)
+    assert (np.isnan(pixels).sum(), np.isinf(pixels).sum()) == (3 * (2 * 2**10 - 2), 3 * 2)
 
 
 @pytest.mark.corpus

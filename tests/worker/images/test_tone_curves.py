@@ -1,7 +1,8 @@
 import numpy as np
 import pytest
 
-from worker.images.tone_curves import ToneCurve, apply_tone_curve, expose
+from api_schemas.output import ToneCurve
+from worker.images.tone_curves import apply_tone_curve, expose
 
 
 def pixel(*channels: float) -> np.ndarray:

@@ -94,7 +94,8 @@ def test_a_memory_hog_fails_and_the_next_job_is_done(make_engine, submit, finish
 
 
 @pytest.mark.parametrize(
-    ("do", "code"), [("refuse", "refused"), ("stumble", "internal"), ("no file", "internal")]
+    ("do", "code"),
+    [("refuse", "refused"), ("stumble", "internal_error"), ("no file", "internal_error")],
 )
 def test_a_failure_is_kept_with_its_code(engine, submit, finish, do, code):
     failed = finish(engine, submit(engine, do=do))
@@ -133,6 +134,21 @@ def test_an_outcome_that_cannot_be_recorded_is_recorded_later(engine, submit, fi
     monkeypatch.setattr(Claims, "fail", refuse_twice)
     assert finish(engine, submit(engine, do="refuse")).failure["code"] == "refused"
     assert len(refusals) == 2
+
+
+def test_a_half_result_leaves_its_room_on_the_disk_to_the_record(
+    engine, submit, finish, monkeypatch, tmp_path
+):
+    seen = []
+    fail = Claims.fail
+
+    def look(self, claim, why):
+        seen.append(halves(tmp_path))
+        fail(self, claim, why)
+
+    monkeypatch.setattr(Claims, "fail", look)
+    assert finish(engine, submit(engine, limit=0.2, do="stuck")).failure["code"] == "timed_out"
+    assert seen == [[]]
 
 
 def test_progress_that_cannot_be_recorded_costs_nothing(engine, submit, finish, monkeypatch):

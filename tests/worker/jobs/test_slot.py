@@ -87,7 +87,7 @@ def test_errors_that_know_their_failure_cross_as_data(slot, ask):
 @pytest.mark.parametrize("do", ["stumble", "not json"])
 def test_other_errors_are_told_to_the_log_only(slot, ask, do):
     outcome = ask(slot, do=do)
-    assert outcome.failure["code"] == "internal"
+    assert outcome.failure["code"] == "internal_error"
     assert "secret" not in outcome.failure["message"]
     assert slot.is_alive()
 

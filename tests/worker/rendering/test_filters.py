@@ -63,7 +63,10 @@ def test_lambda_of_any_footprint(studio: Studio, level_coded: dict[str, object])
         np.testing.assert_allclose(level, expected, atol=1e-4)
 
 
-def test_lambda_at_every_pixel_of_a_floor(studio: Studio, level_coded: dict[str, object]) -> None:
+@pytest.mark.parametrize("up", [[0.0, 1.0, 0.0], [1.0, 0.0, 0.0]], ids=["below", "to the right"])
+def test_lambda_at_every_pixel_of_a_floor(
+    studio: Studio, level_coded: dict[str, object], up: list[float]
+) -> None:
     # On the floor y = -1 seen at focal length f: z = f / y, and by the quotient rule
     # |dP/dx| = z / f, |dP/dy| = z hypot(1, x / f) / y, in units that are 256 * 0.1 texels long.
     side, focal = 256, 128 / np.tan(0.5)
@@ -72,7 +75,7 @@ def test_lambda_at_every_pixel_of_a_floor(studio: Studio, level_coded: dict[str,
             "camera": {
                 "type": "perspective",
                 "fov_y": 1.0,
-                "pose": {"eye": [0.0, 1.0, 0.0], "target": [0.0, 1.0, -1.0]},
+                "pose": {"eye": [0.0, 1.0, 0.0], "target": [0.0, 1.0, -1.0], "up": up},
             },
             "nodes": [
                 {
@@ -97,7 +100,8 @@ def test_lambda_at_every_pixel_of_a_floor(studio: Studio, level_coded: dict[str,
 
     expected = np.clip(np.log2(reach), 0, 8)
 
-    np.testing.assert_allclose(drawn[131:, :, 0], expected, atol=1e-3)
+    levels = drawn[..., 0] if up[1] else drawn[..., 0].T
+    np.testing.assert_allclose(levels[131:], expected, atol=1e-3)
 
 
 def test_anisotropy_reads_the_level_of_the_shorter_axis(

@@ -134,20 +134,3 @@ def test_numbers_do_not_make_new_programs(studio: Studio) -> None:
     draw(transform={"offset": [3.0, 1.0]}, bias=0.5)
 
     assert studio.facts["jit_ms"] == 0
-
-
-def test_more_than_24_pictures_are_refused_by_name(studio: Studio, monkeypatch: Any) -> None:
-    from worker.errors import RenderError  # noqa: PLC0415
-    from worker.rendering import shading  # noqa: PLC0415  needs OpenGL
-
-    monkeypatch.setattr(shading, "MOST_PICTURES", 1)
-    two = {
-        "technique": "phong",
-        "diffuse_color": {"texture": studio.texture([[0.5]])},
-        "emission": {"texture": studio.texture([[0.25]])},
-    }
-
-    with pytest.raises(RenderError, match="2 different pictures; 1 is the most") as caught:
-        studio.poster(two)
-
-    assert caught.value.code == "over_budget"

@@ -3,11 +3,13 @@
 import numpy as np
 import pytest
 
+from api_schemas.lights import LIGHTS_MAX
 from tests.worker.rendering.studio import Studio
 
 pytestmark = pytest.mark.gl
 
 FRONT = {"type": "directional", "direction": [0.0, 0.0, -3.0]}
+SLANTED = {"type": "directional", "direction": [0.3, -0.2, -1.0]}
 SURFACE = {
     "technique": "phong",
     "diffuse_weight": 0.5,
@@ -83,6 +85,19 @@ def test_the_highlight_is_a_power_to_float_precision(
 
     # r.v = cos(angle) within 2^-24 relative, times the exponent; the logarithm adds as much.
     assert drawn == pytest.approx(np.cos(angle) ** exponent, rel=2e-7 + exponent * 2**-23)
+
+
+@pytest.mark.parametrize("normalization", ["none", "energy"])
+def test_what_a_map_reads_below_zero_is_an_exponent_of_zero(
+    studio: Studio, normalization: str
+) -> None:
+    mapped = {"texture": studio.texture([[1.0]]), "scale": -1000.0}
+    glossy = {**SURFACE, "normalization": normalization}
+
+    np.testing.assert_array_equal(
+        studio.poster({**glossy, "exponent": mapped}, lights=[SLANTED]),
+        studio.poster({**glossy, "exponent": 0}, lights=[SLANTED]),
+    )
 
 
 def test_light_from_behind_gives_nothing(studio: Studio) -> None:
@@ -167,10 +182,10 @@ def test_spot_light_is_full_inside_and_nothing_outside(studio: Studio) -> None:
     assert drawn[0, 0] == 0
 
 
-def test_thirty_two_lights_are_thirty_two_times_one(studio: Studio) -> None:
-    one = {**FRONT, "irradiance": 0.0625}
+def test_as_many_lights_as_there_may_be_are_so_many_times_one(studio: Studio) -> None:
+    one = {**FRONT, "irradiance": 2.0 / LIGHTS_MAX}
 
-    drawn = studio.poster(SURFACE, lights=[one] * 32)
+    drawn = studio.poster(SURFACE, lights=[one] * LIGHTS_MAX)
 
     np.testing.assert_array_equal(
         drawn, studio.poster(SURFACE, lights=[{**FRONT, "irradiance": 2.0}])

@@ -69,3 +69,45 @@ def test_a_compilers_message_names_the_chunks(studio: Studio) -> None:
 
     with pytest.raises(RenderError, match=r"0 = main, 1 = surfaces/x\.glsl"):
         Program.link(Source(VERTEX, ("v",)), Source(broken + "oops", ("main", "surfaces/x.glsl")))
+
+
+def test_the_programs_used_last_are_kept(studio: Studio) -> None:
+    from worker.rendering.programs import (  # noqa: PLC0415  needs OpenGL
+        PROGRAMS_MAX,
+        Program,
+        ProgramCache,
+    )
+
+    studio.poster({"technique": "unlit"})
+    cache = ProgramCache(Program)
+    sources = (Source(VERTEX, ("v",)), Source(FRAGMENT, ("f",)))
+    first = cache.get("first", lambda: sources)
+    for number in range(PROGRAMS_MAX + 1):
+        cache.get(number, lambda: sources)
+        assert cache.get("first", lambda: sources) is first
+    assert len(cache) == PROGRAMS_MAX + 2  # a scene that is being drawn loses none
+
+    cache.trim()
+
+    assert len(cache) == PROGRAMS_MAX
+    assert cache.get("first", lambda: sources) is first
+    second = cache.get(0, lambda: sources)
+    assert not second.drawn
+    cache.delete()
+
+
+def test_scenes_of_ever_other_maps_do_not_pile_programs_up(studio: Studio) -> None:
+    from worker.rendering.programs import PROGRAMS_MAX  # noqa: PLC0415  needs OpenGL
+    from worker.rendering.renderer import _engine  # noqa: PLC0415  needs OpenGL
+
+    texture = studio.texture([[0.5]])
+    wraps = ("repeat", "mirror", "clamp", "border")
+    for number in range(PROGRAMS_MAX + 6):
+        wrap = [wraps[number % 4], wraps[number // 4 % 4]]
+        name = ("color", "weight")[number % 2]
+        term = ("ambient", "diffuse", "specular")[number // 16 % 3]
+        filter_name = "nearest" if number < 48 else "bilinear"
+        mapped = {"texture": texture, "wrap": wrap, "filter": filter_name}
+        studio.poster({"technique": "phong", f"{term}_{name}": mapped})
+
+    assert len(_engine().renderer._programs) <= PROGRAMS_MAX

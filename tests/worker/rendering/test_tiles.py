@@ -1,7 +1,8 @@
 import numpy as np
 import pytest
 
-from worker.rendering.tiles import Tile, pixels_per_tile, tile_from_picture, tiles
+from api_schemas.estimate import TILE_SIDE
+from worker.rendering.tiles import SAMPLES_MAX, Tile, pixels_per_tile, tile_from_picture, tiles
 
 
 @pytest.mark.parametrize("supersampling", range(1, 9))
@@ -14,6 +15,10 @@ def test_tiles_cover_every_pixel_once_within_2048_samples(supersampling: int) ->
         assert max(tile.width, tile.height) * supersampling <= 2048
 
     assert (covered == 1).all()
+
+
+def test_the_estimate_knows_the_largest_tile() -> None:
+    assert TILE_SIDE == SAMPLES_MAX
 
 
 @pytest.mark.parametrize("supersampling", range(1, 9))

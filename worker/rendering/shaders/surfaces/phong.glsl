@@ -22,9 +22,10 @@ vec4 shade(SurfacePoint point, Surface surface) {
     // precise: a mapped constant and a plain one must give the same bits in their two programs.
     precise vec3 matt = surface.diffuse_weight * surface.diffuse_color;
     precise vec3 gloss = surface.specular_weight * surface.specular_color;
+    float exponent = max(surface.exponent, 0.0);  // a map may go below, the model does not
     if (surface.normalization == 1) {
         matt /= PI;
-        gloss *= (surface.exponent + 2.0) / (2.0 * PI);
+        gloss *= (exponent + 2.0) / (2.0 * PI);
     }
     precise vec3 radiance =
         surface.emission + surface.ambient_weight * surface.ambient_color * ambient_radiance;
@@ -33,7 +34,7 @@ vec4 shade(SurfacePoint point, Surface surface) {
         float facing = dot(point.normal, light.direction);
         if (facing <= 0.0) continue;
         vec3 mirrored = 2.0 * facing * point.normal - light.direction;
-        float highlight = exact_power(clamp(dot(mirrored, point.view), 0.0, 1.0), surface.exponent);
+        float highlight = exact_power(clamp(dot(mirrored, point.view), 0.0, 1.0), exponent);
         if (surface.normalization == 1) highlight *= facing;
         precise vec3 reflected = matt * facing + gloss * highlight;
         radiance += reflected * light.irradiance;

@@ -1,0 +1,54 @@
+"""How much of a picture a mesh covers at most, told from the ball round it."""
+
+import math
+
+from api_schemas.camera import Camera, OrthographicCamera
+from api_schemas.geometry import Affine, Vector3, affine, dot, length, triple
+from api_schemas.transforms import MatrixPlacement
+
+
+def coverage(reach: float, placed: Affine | None, camera: Camera, aspect: float) -> float:
+    """Return the share of the picture, 0..1, that lies behind the ball's outline.
+
+    Args:
+        reach: Radius of a ball round the mesh's origin that holds the mesh.
+        placed: Where the mesh stands; without a place it covers everything.
+        camera: The eye.
+        aspect: Width over height of the picture.
+    """
+    view = _view(camera)
+    if placed is None or view is None:
+        return 1.0
+    eye, forward = view
+    radius = reach * max(length(placed.x), length(placed.y), length(placed.z))
+    if isinstance(camera, OrthographicCamera):
+        share = radius / camera.height
+        return min(1.0, math.pi * share * share / aspect)
+    way = _difference(placed.origin, eye)
+    depth = dot(way, forward)
+    if depth <= -radius:
+        return 0.0
+    if depth <= radius:
+        return 1.0
+    outline = radius / (depth - radius)
+    slant = length(way) / depth  # what stands aside is drawn longer
+    picture = 4 * math.tan(camera.fov_y / 2) ** 2 * aspect
+    return min(1.0, math.pi * outline * outline * slant / picture)
+
+
+def _view(camera: Camera) -> tuple[Vector3, Vector3] | None:
+    """Return where the eye is and the unit vector of where it looks, if there is one."""
+    pose = camera.pose
+    if isinstance(pose, MatrixPlacement):
+        placed = affine(pose)
+        if placed is None:
+            return None
+        eye, forward = placed.origin, _difference((0, 0, 0), placed.z)
+    else:
+        eye, forward = triple(pose.eye), _difference(triple(pose.target), triple(pose.eye))
+    size = length(forward)
+    return (eye, (forward[0] / size, forward[1] / size, forward[2] / size)) if size else None
+
+
+def _difference(a: Vector3, b: Vector3) -> Vector3:
+    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
