@@ -19,7 +19,6 @@ pytestmark = pytest.mark.contract
 NO_BUG = {f"no bug in {bug.operation}": Bug(bug.operation, bug.phase, "") for bug in BUGS.values()}
 OPTIONS = {
     "fuzzing": ["--phases=fuzzing", "--max-examples=60"],
-    "negative": ["--phases=fuzzing", "--mode=negative", "--max-examples=100"],
     "coverage": ["--phases=coverage"],
     "stateful": ["--phases=stateful", "--max-examples=40"],
 }
