@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, settings
 
+from tests.requirements import skip_or_fail
 from worker.jobs.environment import child_environment
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -47,12 +48,6 @@ def pytest_runtest_setup(item: pytest.Item) -> None:
         skip_or_fail(reason, "REQUIRE_GL")
     if item.get_closest_marker("corpus") and not corpus_folder().is_dir():
         skip_or_fail(f"no corpus at {corpus_folder()} (TEXLOOM_CORPUS)", "REQUIRE_CORPUS")
-
-
-def skip_or_fail(reason: str, requirement: str) -> None:
-    if os.environ.get(requirement) == "1":
-        pytest.fail(f"{reason}, and {requirement}=1 was set", pytrace=False)
-    pytest.skip(reason)
 
 
 @functools.cache

@@ -9,6 +9,7 @@ import sys
 import pytest
 
 from tests.examples import EXAMPLES
+from tests.requirements import skip_or_fail
 from tests.running_service import ROOT
 
 pytestmark = [pytest.mark.end_to_end, pytest.mark.gl]
@@ -38,7 +39,7 @@ def drawn(folder, gl, **environment):
         text=True,
     )
     if done.returncode and gl != HERE:
-        pytest.skip(f"no {gl} here: {done.stderr.strip().splitlines()[-1]}")
+        skip_or_fail(f"no {gl} here: {done.stderr.strip().splitlines()[-1]}", "REQUIRE_GL")
     assert done.returncode == 0, done.stderr
     return done.stdout.split()
 
