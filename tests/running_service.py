@@ -44,6 +44,11 @@ class RunningService:
                 stdout=log,
                 stderr=log,
             )
+        return self.wait_until_warm()
+
+    def wait_until_warm(self) -> "RunningService":
+        """Wait for a warm worker; one whose job was cancelled has to warm up anew."""
+        assert self.process is not None
         deadline = time.monotonic() + SECONDS_TO_START
         while time.monotonic() < deadline:
             assert self.process.poll() is None, self.log()

@@ -4,7 +4,6 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
-import httpx
 import pytest
 
 from tests.contract.fuzzer import fuzz
@@ -25,8 +24,7 @@ def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningService
 
 def failures(service: RunningService) -> list[dict[str, str]]:
     """Everything that went wrong inside while nobody outside was told."""
-    with httpx.Client(base_url=service.url) as client:
-        assert client.get("/readyz").status_code == 200
+    with service.wait_until_warm().client() as client:
         jobs = client.get("/v1/jobs", params={"state": "failed", "limit": 100}).json()["jobs"]
     return [job["failure"] for job in jobs]
 
