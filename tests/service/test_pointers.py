@@ -137,7 +137,7 @@ def problems_if_any(model, body):
         fitted(model, body)
     except ProblemError as error:
         return [item.pointer for item in error.problem.problems]
-    return []
+    return None
 
 
 @given(data=st.data())
@@ -147,5 +147,8 @@ def test_every_pointer_resolves_whatever_is_broken(data):
     for _ in range(data.draw(st.integers(1, 3))):
         path = data.draw(st.sampled_from(list(places(body))))
         body = replaced(body, path, partial(spoilt, data.draw(KEYS), data.draw(JUNK)))
-    for pointer in problems_if_any(model, json.loads(json.dumps(body))):
+    pointers = problems_if_any(model, json.loads(json.dumps(body)))
+
+    assert pointers is None or len(pointers) > 0
+    for pointer in pointers or []:
         resolve(pointer, body)

@@ -17,13 +17,15 @@ def test_ringing_from_a_thread_wakes_those_who_listen_to_the_key():
     asyncio.run(listen())
 
 
-def test_ringing_for_nobody_or_for_those_who_left_is_harmless():
+def test_ringing_for_nobody_or_for_those_who_left_reaches_nobody():
     bell = Bell()
 
     async def leave():
-        with bell.listening("a"):
+        with bell.listening("a") as left:
             pass
+        bell.ring("a")
+        bell.ring("b")
+        await asyncio.sleep(0)  # a ring would be delivered by the loop
+        return left.is_set()
 
-    asyncio.run(leave())
-    bell.ring("a")
-    bell.ring("b")
+    assert asyncio.run(leave()) is False

@@ -129,6 +129,8 @@ def test_slots_work_side_by_side(make_engine, submit, wait_until):
         submit(engine, do="sleep", seconds=9.0)
     wait_until(lambda: engine.ready().running == 2)
 
+    assert engine.ready().queued == 0
+
 
 def test_readiness_tells_of_slots_and_platform(make_engine, wait_until):
     engine = make_engine(slots=2)
