@@ -106,7 +106,7 @@ class SceneBuilder:
             return self._textures.get(key, lambda: _upload(maker(spec, meaning), levels))
 
         return Drawable(
-            primitive=self._meshes.get(mesh.model_dump_json(), lambda: _mesh(mesh)),
+            mesh=self._meshes.get(mesh.model_dump_json(), lambda: _mesh(mesh)),
             shading=shade(surface or _MATT_GREY, texture_of),
             world_from_object=matrix,
         )
