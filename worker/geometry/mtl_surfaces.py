@@ -7,11 +7,8 @@ value is black it stands alone, since exporters write 0 beside it. Pictures in b
 them are normal maps (so writes Blender), grey ones are heights.
 """
 
-import hashlib
-import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any, Literal
 
 from api_schemas.base import FLOAT32_MAX, LENGTH_MAX
@@ -20,9 +17,9 @@ from api_schemas.surfaces.phong import PhongSpec
 from api_schemas.textures.image import ImageSpec
 from api_schemas.textures.normal_from_height import NormalFromHeightSpec
 from worker.geometry.model import NamedSurface
+from worker.geometry.model_pictures import has_alpha, is_grey, picture_of
 from worker.geometry.mtl import Material, TextureStatement
 from worker.geometry.siblings import shown, sibling
-from worker.images import image_io
 
 BUMP_DEPTH = 0.02
 """Height of white in tiles where -bm is 1: the format gives no unit."""
@@ -169,7 +166,7 @@ class _Translation:
         asked = texture.options.get("-imfchan", ("",))[:1]
         channel = _CHANNELS.get(asked[0] if asked else "")
         content = sibling(self._files, texture.file)
-        if channel is None and prefer_alpha and _measured(content)["has_alpha"]:
+        if channel is None and prefer_alpha and has_alpha(content):
             channel = "a"
         base, gain = self._base_and_gain(texture)
         return NumberMap(
@@ -189,7 +186,7 @@ class _Translation:
             return None
         strength = (texture.numbers("-bm") or (1.0,))[0]
         picture = self._picture(texture, "data")
-        if not _is_grey(sibling(self._files, texture.file)):
+        if not is_grey(sibling(self._files, texture.file)):
             return NormalMap(
                 texture=picture, strength=_held(strength, FLOAT32_MAX), **self._place(texture)
             )
@@ -200,15 +197,9 @@ class _Translation:
 
     def _picture(self, texture: TextureStatement, meaning: Literal["colour", "data"]) -> ImageSpec:
         content = sibling(self._files, texture.file)
-        sha256 = hashlib.sha256(content).hexdigest()
-        self._made.pictures[sha256] = content
-        is_light = meaning == "data" or _holds_floats(content)
-        return ImageSpec(
-            technique="image",
-            asset=sha256,
-            encoding="linear" if is_light else "srgb",
-            alpha="ignore" if meaning == "colour" else "use",
-        )
+        picture = picture_of(content, meaning)
+        self._made.pictures[picture.asset] = content
+        return picture
 
     def _base_and_gain(self, texture: TextureStatement) -> tuple[float, float]:
         numbers = texture.numbers("-mm")
@@ -235,29 +226,3 @@ class _Translation:
 
 def _held(number: float, most: float) -> float:
     return min(max(number, -most), most)
-
-
-def _measured(content: bytes) -> image_io.ImageFacts:
-    with tempfile.NamedTemporaryFile() as file:
-        file.write(content)
-        file.flush()
-        return image_io.measure(Path(file.name))
-
-
-def _holds_floats(content: bytes) -> bool:
-    return _measured(content)["float"]
-
-
-def _is_grey(content: bytes) -> bool:
-    """Whether red, green and blue are nearly equal everywhere, or there is one of them."""
-    with tempfile.NamedTemporaryFile() as file:
-        file.write(content)
-        file.flush()
-        pixels = image_io.read(Path(file.name), "linear", "data").pixels
-    if pixels.shape[2] < 3:
-        return True
-    spread = pixels[..., :3].max(axis=2) - pixels[..., :3].min(axis=2)
-    return bool((spread < 0.1).mean() > 0.99)
-
-
-

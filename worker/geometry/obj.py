@@ -18,15 +18,20 @@ from numpy.typing import NDArray
 from worker.errors import UnusableAssetError
 from worker.geometry import mtl, obj_scan
 from worker.geometry.model import Model, Part
-from worker.geometry.model_limits import TRIANGLES_MAX, VERTICES_MAX, check_size
+from worker.geometry.model_limits import (
+    TRIANGLES_MAX,
+    VERTICES_MAX,
+    check_positions,
+    check_size,
+    check_uv,
+)
 from worker.geometry.mtl_surfaces import surfaces_of
 from worker.geometry.obj_pieces import Piece, Statements, build_pieces
-from worker.geometry.siblings import NAME_LENGTH_MAX, decoded
+from worker.geometry.outline import Outline, outline_of
+from worker.geometry.siblings import NAME_LENGTH_MAX, decoded, sibling_name
 
 GROUPS_MAX = 500
 """Draws of one file: each costs about a millisecond. Beyond, groups are joined."""
-
-_FLOAT32_MAX = np.finfo(np.float32).max
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,6 +42,7 @@ class ObjFile:
     groups: tuple[str, ...]
     materials: tuple[str, ...]
     libraries: tuple[str, ...]
+    has_normals: bool
     warnings: tuple[str, ...]
 
 
@@ -74,6 +80,24 @@ def read(data: bytes, files: Mapping[str, bytes]) -> Model:
         lights=(),
         pictures=made.pictures,
         warnings=(*parsed.warnings, *made.warnings),
+    )
+
+
+def outline(data: bytes) -> Outline:
+    """Measure an OBJ without its materials.
+
+    Raises:
+        UnusableAssetError: As `parse`; also if a material library's name cannot be one.
+    """
+    parsed = parse(data)
+    libraries = [name for line in parsed.libraries for name in mtl.library_names(line)]
+    return outline_of(
+        [piece.mesh for piece in parsed.pieces],
+        has_normals=parsed.has_normals,
+        materials=parsed.materials,
+        nodes=parsed.groups,
+        files=tuple(dict.fromkeys(sibling_name(name) for name in libraries)),
+        warnings=parsed.warnings,
     )
 
 
@@ -133,6 +157,7 @@ def parse(data: bytes) -> ObjFile:
         groups,
         materials,
         tuple(decoded(name) for name in _slices(text, libraries)),
+        bool((corners[:, 2] >= 0).any()),
         tuple(warnings),
     )
 
@@ -141,7 +166,7 @@ _DRAWN = [obj_scan.FACE, obj_scan.LINE, obj_scan.POINT]
 
 
 def _text(data: bytes) -> NDArray[np.uint8]:
-    """Give the bytes without a byte order mark, lines that go on after a \\ made one."""
+    """Drop a byte order mark, and make one of lines that go on after a backslash."""
     data = data.removeprefix(b"\xef\xbb\xbf")
     if b"\\" in data:
         data = data.replace(b"\\\r\n", b"   ").replace(b"\\\n", b"  ").replace(b"\\\r", b"  ")
@@ -167,13 +192,9 @@ def _check(counts: NDArray[np.int64]) -> None:
 
 
 def _check_numbers(statements: Statements) -> None:
-    used = statements.vertices[np.unique(statements.corners[:, 0]), :3]
-    if not (np.abs(used) <= _FLOAT32_MAX).all():
-        raise UnusableAssetError("a vertex that is used is not three finite numbers")
+    check_positions(statements.vertices[np.unique(statements.corners[:, 0]), :3])
     textured = np.unique(statements.corners[:, 1])
-    used = statements.texture_vertices[textured[textured >= 0]]
-    if not (np.abs(used) <= _FLOAT32_MAX).all():
-        raise UnusableAssetError("a texture vertex that is used is not two finite numbers")
+    check_uv(statements.texture_vertices[textured[textured >= 0]])
 
 
 def _named(

@@ -52,12 +52,10 @@ _V, _T, _N, _F, _O, _L, _P, _S, _G = b"vtnfolpsg"
 
 @kernel
 def _is(text: NDArray[np.uint8], start: int, end: int, word: bytes) -> bool:
-    if end - start != len(word):
-        return False
-    for index in range(len(word)):
-        if text[start + index] != word[index]:
-            return False
-    return True
+    index = 0
+    while index < min(end - start, len(word)) and text[start + index] == word[index]:
+        index += 1
+    return index == end - start == len(word)
 
 
 @kernel
@@ -75,7 +73,7 @@ def _kind(text: NDArray[np.uint8], start: int, end: int) -> int:
             return POINT
         if first == _S:
             return SMOOTHING
-        if first == _G or first == _O:
+        if first in (_G, _O):
             return GROUP
         return OTHER
     if end - start == 2:
@@ -107,7 +105,7 @@ def count(text: NDArray[np.uint8]) -> NDArray[np.int64]:
             stop = word_end(text, at, end)
             kind = _kind(text, at, stop)
             counts[kind] += 1
-            if kind == FACE or kind == LINE or kind == POINT:
+            if kind in (FACE, LINE, POINT):
                 counts[CORNERS] += _count_words_of_line(text, stop, end)
         at = end + 1
     return counts
@@ -181,7 +179,7 @@ def fill(
         elif kind == NORMAL:
             _read_row(text, at, end, normals[counted[2]])
             counted[2] += 1
-        elif kind == FACE or kind == LINE or kind == POINT:
+        elif kind in (FACE, LINE, POINT):
             if material_start >= 0:
                 marks[mark, 0], marks[mark, 1] = material_start, material_stop
                 material, material_start = mark, -1
@@ -241,7 +239,10 @@ def _read_corner(
     totals: NDArray[np.int64],
     corner: NDArray[np.int32],
 ) -> int:
-    """Read v, v/vt, v//vn or v/vt/vn; numbers below 0 count back from what was read so far."""
+    """Read v, v/vt, v//vn or v/vt/vn; numbers below 0 count back from what was read so far.
+
+    A texture vertex or a normal that is not there is none: exporters write such files.
+    """
     corner[:] = -1
     for part in range(3):
         value, stop = integer(text, at, end)
@@ -249,16 +250,12 @@ def _read_corner(
             if part == 0:
                 return NOT_AN_INDEX
             stop = at
-        elif value > totals[part]:
-            return NO_SUCH_VERTEX
-        elif value > 0:
-            corner[part] = value - 1
-        elif value < 0:
-            if counted[part] + value < 0:
+        else:
+            index = value - 1 if value > 0 else counted[part] + value
+            if value != 0 and 0 <= index < totals[part]:
+                corner[part] = index
+            elif part == 0:
                 return NO_SUCH_VERTEX
-            corner[part] = counted[part] + value
-        elif part == 0:
-            return NO_SUCH_VERTEX
         if stop == end:
             return 0
         if text[stop] != SLASH:

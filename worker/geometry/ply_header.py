@@ -122,7 +122,7 @@ def read_header(data: bytes) -> Header:
 
 
 def _lines(data: bytes) -> tuple[list[str], int]:
-    """Part the header's lines, which end with \\n, \\r\\n or \\r, and say where the numbers begin."""
+    """Part the header's lines, ended by any of the three line ends, and find the numbers."""
     start = data[:_LENGTH_MAX]
     at = start.find(b"end_header")
     while at > 0 and start[at - 1 : at] not in (b"\n", b"\r"):

@@ -120,9 +120,9 @@ def _flatten(
 @kernel
 def _turn(flat: NDArray[np.float64], a: int, b: int, c: int) -> float:
     """Twice the area of the triangle a, b, c; positive counter-clockwise."""
-    return (flat[b, 0] - flat[a, 0]) * (flat[c, 1] - flat[a, 1]) - (flat[b, 1] - flat[a, 1]) * (
-        flat[c, 0] - flat[a, 0]
-    )
+    bx, by = flat[b, 0] - flat[a, 0], flat[b, 1] - flat[a, 1]
+    cx, cy = flat[c, 0] - flat[a, 0], flat[c, 1] - flat[a, 1]
+    return float(bx * cy - by * cx)
 
 
 @kernel
@@ -188,4 +188,4 @@ def _is_ear(
 
 @kernel
 def _same(flat: NDArray[np.float64], a: int, b: int) -> bool:
-    return flat[a, 0] == flat[b, 0] and flat[a, 1] == flat[b, 1]
+    return bool(flat[a, 0] == flat[b, 0] and flat[a, 1] == flat[b, 1])

@@ -13,16 +13,14 @@ from numpy.typing import NDArray
 from worker.errors import UnusableAssetError
 from worker.geometry.mesh import Mesh
 from worker.geometry.model import Model, Part
-from worker.geometry.model_limits import TRIANGLES_MAX, check_size
+from worker.geometry.model_limits import TRIANGLES_MAX, check_positions, check_size
+from worker.geometry.outline import Outline, outline_of
 from worker.geometry.stl_scan import count_vertices, read_vertices
 from worker.geometry.vertices import flat_normals
 from worker.images.colour import linear_from_srgb
 
 _HEADER = 84
-_RECORD = np.dtype(
-    [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("spare", "<u2")]
-)  # 50 bytes
-_FLOAT32_MAX = np.finfo(np.float32).max
+_RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("spare", "<u2")])  # 50 bytes
 
 
 def is_binary_stl(data: bytes) -> bool:
@@ -57,8 +55,7 @@ def read(data: bytes) -> Model:
         corners = _corners_in_text(data)
     if not len(corners):
         raise UnusableAssetError("it has no triangles")
-    if not (np.abs(corners) <= _FLOAT32_MAX).all():
-        raise UnusableAssetError("a vertex is not three finite numbers")
+    check_positions(corners)
     mesh = Mesh(
         positions=corners.reshape(-1, 3),
         normals=np.repeat(flat_normals(corners), 3, axis=0),
@@ -76,6 +73,15 @@ def read(data: bytes) -> Model:
         pictures={},
         warnings=(),
     )
+
+
+def outline(data: bytes) -> Outline:
+    """Measure an STL.
+
+    Raises:
+        UnusableAssetError: As `read`.
+    """
+    return outline_of([read(data).parts[0].mesh], has_normals=False)
 
 
 def _corners_in_text(data: bytes) -> NDArray[np.float64]:

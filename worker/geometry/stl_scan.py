@@ -52,9 +52,7 @@ def read_vertices(text: NDArray[np.uint8], corners: NDArray[np.float64]) -> None
 @kernel
 def _is(text: NDArray[np.uint8], start: int, end: int, word: bytes) -> bool:
     """Whether a word is another one, in small letters or in capitals."""
-    if end - start != len(word):
-        return False
-    for index in range(len(word)):
-        if text[start + index] | 32 != word[index]:
-            return False
-    return True
+    index = 0
+    while index < min(end - start, len(word)) and text[start + index] | 32 == word[index]:
+        index += 1
+    return index == end - start == len(word)

@@ -56,7 +56,7 @@ def number(text: NDArray[np.uint8], at: int, end: int) -> float:
     negative = at < end and text[at] == MINUS
     if at < end and (text[at] == MINUS or text[at] == PLUS):
         at += 1
-    digits = np.int64(0)
+    digits = 0
     kept, exponent, seen = 0, 0, 0
     fraction = False
     while at < end:
@@ -82,7 +82,7 @@ def number(text: NDArray[np.uint8], at: int, end: int) -> float:
         if at != end:
             return np.nan
         exponent += shift
-    value = np.float64(digits)
+    value = float(digits)
     if exponent > 308:
         value = value * np.inf if digits > 0 else 0.0
     elif exponent >= 0:
@@ -104,7 +104,7 @@ def integer(text: NDArray[np.uint8], at: int, end: int) -> tuple[int, int]:
     if at < end and (text[at] == MINUS or text[at] == PLUS):
         at += 1
     start = at
-    value = np.int64(0)
+    value = 0
     while at < end and ZERO <= text[at] <= NINE:
         value = min(value * 10 + (text[at] - ZERO), _WHOLE_MAX)
         at += 1
@@ -112,22 +112,42 @@ def integer(text: NDArray[np.uint8], at: int, end: int) -> tuple[int, int]:
 
 
 @kernel
-def count_words(text: NDArray[np.uint8]) -> int:
-    """Count the words of a text, line ends being blanks."""
-    words = 0
-    inside = False
+def count_words(text: NDArray[np.uint8]) -> tuple[int, int]:
+    """Count the words of a text and the lines that have any."""
+    words, lines = 0, 0
+    inside, filled = False, False
     for byte in text:
-        words += 1 if byte > SPACE and not inside else 0
+        if byte > SPACE:
+            words += 0 if inside else 1
+            lines += 0 if filled else 1
+            filled = True
+        elif byte in (NEWLINE, RETURN):
+            filled = False
         inside = byte > SPACE
-    return words
+    return words, lines
 
 
 @kernel
-def read_numbers(text: NDArray[np.uint8], numbers: NDArray[np.float64]) -> None:
-    """Fill `numbers` with the first words of a text, NaN where one is no number."""
-    at = 0
-    for index in range(len(numbers)):
-        at = word_start(text, at, len(text))
-        end = word_end(text, at, len(text))
-        numbers[index] = number(text, at, end)
-        at = end
+def read_numbers(
+    text: NDArray[np.uint8], numbers: NDArray[np.float64], lines: NDArray[np.int64]
+) -> None:
+    """Read all words of a text as numbers, NaN where one is none.
+
+    Args:
+        text: The text.
+        numbers: (words,): filled.
+        lines: (lines with words,): filled with the word that each begins with.
+    """
+    at, word, line = 0, 0, 0
+    while at < len(text):
+        end = line_end(text, at)
+        at = word_start(text, at, end)
+        if at < end:
+            lines[line] = word
+            line += 1
+        while at < end:
+            stop = word_end(text, at, end)
+            numbers[word] = number(text, at, stop)
+            word += 1
+            at = word_start(text, stop, end)
+        at = end + 1

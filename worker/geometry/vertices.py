@@ -58,10 +58,10 @@ def _number_rows(
 
 @kernel
 def _equal(keys: NDArray[np.uint64], a: int, b: int) -> bool:
-    for column in range(keys.shape[1]):
-        if keys[a, column] != keys[b, column]:
-            return False
-    return True
+    column = 0
+    while column < keys.shape[1] and keys[a, column] == keys[b, column]:
+        column += 1
+    return bool(column == keys.shape[1])
 
 
 def smooth_normals(
