@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -24,7 +24,7 @@ def number_rows(keys: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.
     """
     numbers = np.empty(len(keys), np.int64)
     firsts = np.empty(len(keys), np.int64)
-    slots = np.full(1 << max(2 * len(keys), 2).bit_length(), -1, np.int64)
+    slots = np.full(1 << (2 * len(keys)).bit_length(), -1, np.int32)
     count = _number_rows(np.ascontiguousarray(keys).view(np.uint64), slots, numbers, firsts)
     return numbers, firsts[:count].copy()
 
@@ -32,7 +32,7 @@ def number_rows(keys: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.
 @kernel
 def _number_rows(
     keys: NDArray[np.uint64],
-    slots: NDArray[np.int64],
+    slots: NDArray[np.int32],
     numbers: NDArray[np.int64],
     firsts: NDArray[np.int64],
 ) -> int:
@@ -62,6 +62,13 @@ def _equal(keys: NDArray[np.uint64], a: int, b: int) -> bool:
     while column < keys.shape[1] and keys[a, column] == keys[b, column]:
         column += 1
     return bool(column == keys.shape[1])
+
+
+def used(indices: NDArray[np.integer[Any]], count: int) -> NDArray[np.bool_]:
+    """Say of each of `count` things whether any index names it; -1 names none."""
+    named = np.zeros(count + 1, np.bool_)
+    named[indices] = True
+    return named[:count]
 
 
 def smooth_normals(
