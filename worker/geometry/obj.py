@@ -32,7 +32,9 @@ from worker.geometry.siblings import NAME_LENGTH_MAX, decoded, sibling_name
 from worker.geometry.vertices import number_rows, used
 
 GROUPS_MAX = 500
-"""Draws of one file: each costs about a millisecond. Beyond, groups are joined."""
+"""Parts of one file: each costs about a millisecond to draw. Beyond, groups are joined."""
+MATERIALS_MAX = 4096
+"""Parts when groups are joined."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,8 +145,9 @@ def parse(data: bytes) -> ObjFile:
     warnings = []
     owners = np.stack([elements[:, 0], group, material], axis=1).astype(np.int64)
     if len(number_rows(owners)[1]) > GROUPS_MAX:
-        warnings.append(f"its groups are joined: it has more than {GROUPS_MAX}")
+        warnings.append(f"its groups are joined: they have more than {GROUPS_MAX} parts")
         owners[:, 1], groups = -1, ()
+        check_size(len(number_rows(owners)[1]), MATERIALS_MAX, "materials")
     if counts[obj_scan.FREE_FORM]:
         warnings.append("free-form curves and surfaces are not drawn")
     short = statements.sizes < np.choose(statements.kinds - obj_scan.FACE, (3, 2, 1))
