@@ -47,9 +47,9 @@ class Mesh:
     @property
     def size_bytes(self) -> int:
         """What the arrays occupy."""
-        arrays = (self.positions, self.normals, *self.uv_sets, self.triangles)
-        optional = (self.tangents, self.colors)
-        return sum(a.nbytes for a in (*arrays, *(a for a in optional if a is not None)))
+        floats = [self.positions, self.normals, *self.uv_sets]
+        floats += [array for array in (self.tangents, self.colors) if array is not None]
+        return self.triangles.nbytes + sum(array.nbytes for array in floats)
 
 
 def join(meshes: list[Mesh]) -> Mesh:

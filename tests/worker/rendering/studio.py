@@ -5,19 +5,18 @@ import itertools
 import json
 from collections.abc import Callable
 from typing import Any
-from unittest import mock
 
 import numpy as np
 from numpy.typing import NDArray
 
 from api_schemas.output import RenderOutput
 from api_schemas.scene import Scene
-from worker.geometry import primitives
 from worker.geometry.mesh import Mesh
+from worker.geometry.model import Model, Part
 from worker.images.image import Image
 
 Pixels = NDArray[np.float32]
-_WIDTHS = itertools.count(1000)  # of planes that stand for meshes; the renderer caches by spec
+_MESHES = itertools.count()  # the renderer keeps meshes by name, from one studio to the next
 
 
 class Studio:
@@ -26,7 +25,7 @@ class Studio:
     def __init__(self, render: Callable[..., Any]) -> None:
         self._render = render
         self._arrays: dict[str, Pixels] = {}
-        self._meshes: dict[float, Mesh] = {}
+        self.models: dict[str, Model] = {}
         self.facts: dict[str, Any] = {}
         self.reports: list[tuple[float, str]] = []
 
@@ -44,28 +43,25 @@ class Studio:
         return self._arrays[texture["asset"]]
 
     def mesh(self, mesh: Mesh) -> dict[str, Any]:
-        """Make a mesh spec of vertices."""
-        width = float(next(_WIDTHS))
-        self._meshes[width] = mesh
-        return {"type": "plane", "width": width}
+        """Make a mesh spec of vertices: a model that is one part and nothing else."""
+        name = hashlib.sha256(f"vertices {next(_MESHES)}".encode()).hexdigest()
+        part = Part(mesh, np.eye(4), node=None, material=None, key="")
+        self.models[name] = Model((part,), (), (), (), (), {}, ())
+        return {"type": "model", "asset": name}
 
     def draw(
         self, scene: dict[str, Any], size: tuple[int, int] = (32, 32), supersampling: int = 1
     ) -> Pixels:
         """Draw a scene given as JSON; float32 (height, width, 4)."""
-        with mock.patch.object(primitives, "build", self._build):
-            rendering = self._render(
-                Scene.model_validate_json(json.dumps(scene)),
-                RenderOutput(size=list(size), supersampling=supersampling),
-                lambda spec, meaning: Image(self._arrays[spec.asset], meaning),
-                lambda fraction, stage: self.reports.append((fraction, stage)),
-            )
+        rendering = self._render(
+            Scene.model_validate_json(json.dumps(scene)),
+            RenderOutput(size=list(size), supersampling=supersampling),
+            lambda spec, meaning: Image(self._arrays[spec.asset], meaning),
+            lambda mesh: self.models[mesh.asset],
+            lambda fraction, stage: self.reports.append((fraction, stage)),
+        )
         self.facts = rendering.timings | rendering.counts
         return rendering.image.pixels
-
-    def _build(self, spec: Any, build: Callable[..., Mesh] = primitives.build) -> Mesh:
-        stand_in = self._meshes.get(getattr(spec, "width", 0.0))
-        return build(spec) if stand_in is None else stand_in
 
     def poster(
         self, surface: dict[str, Any], size: tuple[int, int] = (32, 32), **more: Any
