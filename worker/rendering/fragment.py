@@ -19,6 +19,8 @@ def _fragment(layout: ShadingLayout) -> str:
         *(f"coordinates/{lookup.coordinates}.glsl" for lookup in lookups),
         *(f"lib/sample_{lookup.filter}.glsl" for lookup in lookups),
     ]
+    if layout.normal is not None:
+        chunks.append("lib/normal_map.glsl")
     lines = [VERSION, *(f'#include "{name}"' for name in dict.fromkeys(chunks))]
     if lookups:
         lines += [
@@ -29,6 +31,8 @@ def _fragment(layout: ShadingLayout) -> str:
         ]
     for parameter in layout.parameters:
         lines += _declarations(parameter)
+    if layout.normal is not None:
+        lines += ["uniform vec2 normal_range;", "uniform vec4 normal_axes;"]
     lines += ["void main() {", "    SurfacePoint point = surface_point();"]
     for index, lookup in enumerate(lookups):
         lines.append(
@@ -36,6 +40,8 @@ def _fragment(layout: ShadingLayout) -> str:
             f"look_up({_coordinates(lookup)}, lookup_transform[{index}], "
             f"lookup_period[{index}], lookup_size[{index}]));"
         )
+    if layout.normal is not None:
+        lines += _tilt(layout.normal)
     lines.append("    Surface surface;")
     lines += [f"    surface.{p.name} = {_value(p)};" for p in layout.parameters]
     lines += ["    color = holdable(shade(point, surface));", "}"]
@@ -44,6 +50,14 @@ def _fragment(layout: ShadingLayout) -> str:
 
 def _coordinates(lookup: LookupLayout) -> str:
     return f"coordinates_{lookup.coordinates}({', '.join(['point', *map(str, lookup.choices)])})"
+
+
+def _tilt(lookup: int) -> list[str]:
+    return [
+        f"    vec3 tilt = normal_range.x * texel_{lookup}.xyz + normal_range.y;",
+        "    tilt.xy = vec2(dot(normal_axes.xy, tilt.xy), dot(normal_axes.zw, tilt.xy));",
+        "    point.normal = tilted_normal(point, vertex_normal, tilt);",
+    ]
 
 
 def _declarations(parameter: Parameter) -> list[str]:

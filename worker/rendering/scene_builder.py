@@ -16,6 +16,7 @@ from api_schemas.surfaces.phong import PhongSpec
 from worker.geometry import primitives
 from worker.geometry.mesh import Mesh
 from worker.geometry.model import Model, Part
+from worker.geometry.tangents import with_tangents
 from worker.geometry.transforms import Matrix, parent_from_node
 from worker.images.image import Image
 from worker.images.pyramids import mip_chain
@@ -23,7 +24,7 @@ from worker.rendering.cache import ByteCache
 from worker.rendering.framing import Box
 from worker.rendering.model_changes import surface_of
 from worker.rendering.pyrender_adapter import Drawable, UploadedMesh, View, delete_mesh, upload_mesh
-from worker.rendering.shading import Shading, shade
+from worker.rendering.shading import Shading, shade, tangent_uv_set
 from worker.rendering.staging import PlacedModel, lights_of, view_of
 from worker.rendering.textures import Texture
 
@@ -148,11 +149,15 @@ class SceneBuilder:
         self._meshes.trim()
 
     def _kept(self, item: _Placed) -> _Kept:
+        uv_set = tangent_uv_set(item.surface)
+
         def make() -> tuple[_Kept, int]:
             mesh = item.mesh()
+            if uv_set is not None:
+                mesh = with_tangents(mesh, uv_set)
             return _Kept.of(mesh), mesh.size_bytes
 
-        return self._meshes.get(item.key, make)
+        return self._meshes.get((item.key, uv_set), make)
 
     def _shading(self, surface: SurfaceSpec, maker: TextureMaker) -> Shading:
         def texture_of(spec: TextureSpec, meaning: Meaning, *, levels: bool) -> Texture:
