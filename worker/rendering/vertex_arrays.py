@@ -70,7 +70,7 @@ class VertexArray:
     @property
     def has_sides(self) -> bool:
         """Whether it has an inner and an outer side; lines and points have none."""
-        return bool(self.mode == GL.GL_TRIANGLES)
+        return bool(self.mode == _MODES["triangles"])
 
     def bind(self) -> None:
         """Make it what is drawn."""

@@ -1,7 +1,6 @@
 """A small studio: pictures as textures, scenes as dictionaries, pixels back."""
 
 import hashlib
-import itertools
 import json
 from collections.abc import Callable
 from typing import Any
@@ -16,7 +15,6 @@ from worker.geometry.model import Model, Part
 from worker.images.image import Image
 
 Pixels = NDArray[np.float32]
-_MESHES = itertools.count()  # the renderer keeps meshes by name, from one studio to the next
 
 
 class Studio:
@@ -43,9 +41,15 @@ class Studio:
         return self._arrays[texture["asset"]]
 
     def mesh(self, mesh: Mesh) -> dict[str, Any]:
-        """Make a mesh spec of vertices: a model that is one part and nothing else."""
-        name = hashlib.sha256(f"vertices {next(_MESHES)}".encode()).hexdigest()
-        part = Part(mesh, np.eye(4), node=None, material=None, key="")
+        """Make a mesh spec of vertices."""
+        arrays = (mesh.positions, mesh.normals, *mesh.uv_sets, mesh.triangles)
+        more = (mesh.tangents, mesh.colors)
+        name = hashlib.sha256(
+            b"".join(repr(a.shape).encode() + a.tobytes() for a in arrays)
+            + b"".join(b"-" if a is None else a.tobytes() for a in more)
+            + mesh.kind.encode()
+        ).hexdigest()
+        part = Part(mesh, np.eye(4), None, None, "")
         self.models[name] = Model((part,), (), (), (), (), {}, ())
         return {"type": "model", "asset": name}
 

@@ -34,7 +34,7 @@ def normals(
     eye: tuple[float, float, float] = (0.0, 0.0, 2.0),
     size: tuple[int, int] = (8, 8),
 ) -> Pixels:
-    """See the normal at every pixel: of white chalk under coloured lights, n.l is its coordinate."""
+    """See the normal at every pixel: on white chalk each light shows one coordinate, n.l."""
     surface = {"technique": "phong", "diffuse_color": [1.0, 1.0, 1.0], "normal": normal}
     camera = {"type": "orthographic", "height": 2.0, "pose": {"eye": list(eye)}}
     one, other = (
