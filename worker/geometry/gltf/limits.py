@@ -11,6 +11,9 @@ JSON_DEPTH_MAX: Final = 64
 DATA_URI_BYTES_MAX: Final = 128 * 2**20
 """Base64 text of all data URIs together. Larger things travel in a GLB, a quarter shorter."""
 
+PICTURE_BYTES_MAX: Final = 256 * 2**20
+"""Bytes of all pictures together, as files."""
+
 NODES_MAX: Final = 10_000
 PARTS_MAX: Final = 10_000
 VERTICES_MAX: Final = 4_000_000

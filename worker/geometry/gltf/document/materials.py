@@ -52,9 +52,11 @@ class Specular(GltfObject):
 
     specular_factor: Fraction = 1.0
     specular_texture: TextureInfo | None = None
-    specular_color_factor: Annotated[
-        list[NonNegativeReal], Field(min_length=3, max_length=3)
-    ] = [1.0, 1.0, 1.0]
+    specular_color_factor: Annotated[list[NonNegativeReal], Field(min_length=3, max_length=3)] = [
+        1.0,
+        1.0,
+        1.0,
+    ]
     specular_color_texture: TextureInfo | None = None
 
 

@@ -4,7 +4,15 @@ from typing import Annotated, Self
 
 from pydantic import Field, model_validator
 
-from worker.geometry.gltf.document.base import Code, Fraction, GltfObject, Index, Named, Real, Reals2
+from worker.geometry.gltf.document.base import (
+    Code,
+    Fraction,
+    GltfObject,
+    Index,
+    Named,
+    Real,
+    Reals2,
+)
 
 
 class Image(Named):

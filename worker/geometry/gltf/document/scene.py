@@ -19,9 +19,7 @@ from worker.geometry.gltf.document.base import (
 from worker.geometry.gltf.document.meshes import Weights
 
 Positive = Annotated[float, Field(gt=0, le=3.4028234663852886e38)]
-Rotation = Annotated[
-    list[Annotated[float, Field(ge=-1, le=1)]], Field(min_length=4, max_length=4)
-]
+Rotation = Annotated[list[Annotated[float, Field(ge=-1, le=1)]], Field(min_length=4, max_length=4)]
 _UNIT_TOLERANCE = 5e-3
 """How far a rotation may be from unit length: five times what eight-bit components cost."""
 
