@@ -3,17 +3,16 @@
 import hashlib
 import json
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from api_schemas.output import RenderOutput
 from api_schemas.scene import Scene
+from worker.geometry.mesh import Mesh
+from worker.geometry.model import Model, Part
 from worker.images.image import Image
-
-if TYPE_CHECKING:
-    from worker.geometry.model import Model
 
 Pixels = NDArray[np.float32]
 
@@ -40,6 +39,19 @@ class Studio:
     def array(self, texture: dict[str, Any]) -> Pixels:
         """The array of a texture spec."""
         return self._arrays[texture["asset"]]
+
+    def mesh(self, mesh: Mesh) -> dict[str, Any]:
+        """Make a mesh spec of vertices."""
+        arrays = (mesh.positions, mesh.normals, *mesh.uv_sets, mesh.triangles)
+        more = (mesh.tangents, mesh.colors)
+        name = hashlib.sha256(
+            b"".join(repr(a.shape).encode() + a.tobytes() for a in arrays)
+            + b"".join(b"-" if a is None else a.tobytes() for a in more)
+            + mesh.kind.encode()
+        ).hexdigest()
+        part = Part(mesh, np.eye(4), None, None, "")
+        self.models[name] = Model((part,), (), (), (), (), {}, ())
+        return {"type": "model", "asset": name}
 
     def draw(
         self, scene: dict[str, Any], size: tuple[int, int] = (32, 32), supersampling: int = 1
