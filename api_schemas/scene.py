@@ -13,6 +13,9 @@ from api_schemas.lights import LIGHTS_MAX, Light
 from api_schemas.meshes import Mesh
 from api_schemas.transforms import Placement, Transform
 
+NODES_MAX = 1024
+"""Nodes of one scene."""
+
 
 class Node(Schema):
     """A place in the scene; what hangs below it moves with it."""
@@ -27,7 +30,7 @@ class Node(Schema):
     surface: Surface | None = Field(
         default=None, description="How the shape reflects light; matt grey Phong without one."
     )
-    children: Annotated[list[Node], Field(max_length=256)] = Field(
+    children: Annotated[list[Node], Field(max_length=NODES_MAX)] = Field(
         default=[], description="Nodes that move with this one."
     )
 
@@ -39,4 +42,4 @@ class Scene(Schema):
     lights: Annotated[list[Light], Field(max_length=LIGHTS_MAX)] = Field(
         default=[], description="What shines; without any, only emission and unlit surfaces show."
     )
-    nodes: Annotated[list[Node], Field(max_length=256)] = Field(description="What is there.")
+    nodes: Annotated[list[Node], Field(max_length=NODES_MAX)] = Field(description="What is there.")

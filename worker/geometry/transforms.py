@@ -94,16 +94,29 @@ def clip_from_camera(camera: PerspectiveCamera | OrthographicCamera, aspect: flo
         raise RenderError(
             f"far is {far:g}; it must be more than near, {near:g}", code="camera_degenerate"
         )
-    matrix = np.zeros((4, 4))
     if isinstance(camera, PerspectiveCamera):
-        focal = 1 / math.tan(camera.fov_y / 2)
-        matrix[0, 0], matrix[1, 1] = focal / aspect, focal
-        matrix[2, 2], matrix[2, 3] = near / (far - near), near * far / (far - near)
-        matrix[3, 2] = -1.0
-    else:
-        matrix[0, 0], matrix[1, 1] = 2 / (camera.height * aspect), 2 / camera.height
-        matrix[2, 2], matrix[2, 3] = 1 / (far - near), far / (far - near)
-        matrix[3, 3] = 1.0
+        return perspective(camera.fov_y, aspect, near, far)
+    matrix = np.zeros((4, 4))
+    matrix[0, 0], matrix[1, 1] = 2 / (camera.height * aspect), 2 / camera.height
+    matrix[2, 2], matrix[2, 3] = 1 / (far - near), far / (far - near)
+    matrix[3, 3] = 1.0
+    return matrix
+
+
+def perspective(fov_y: float, aspect: float, near: float, far: float) -> Matrix:
+    """Project to clip space with reversed depth as far things are small; 0 < near < far.
+
+    Args:
+        fov_y: Angle in radians from the lower to the upper edge.
+        aspect: Width over height of the picture.
+        near: Distance of the plane with depth 1.
+        far: Distance of the plane with depth 0.
+    """
+    focal = 1 / math.tan(fov_y / 2)
+    matrix = np.zeros((4, 4))
+    matrix[0, 0], matrix[1, 1] = focal / aspect, focal
+    matrix[2, 2], matrix[2, 3] = near / (far - near), near * far / (far - near)
+    matrix[3, 2] = -1.0
     return matrix
 
 
