@@ -7,7 +7,7 @@ _PAIRS_MAX = 1 << 21
 """Triangles times vertices up to which a shape is asked whether it is convex: some 20 ms."""
 
 _FLATNESS = 1e-5
-"""How far beyond a face a vertex may lie, of the shape's size: float32 positions round that much."""
+"""How far beyond a face a vertex may lie, of the shape's size: float32 rounds positions."""
 
 
 def nearness(

@@ -45,7 +45,10 @@ def _fragment(layout: ShadingLayout) -> str:
 def _declarations(parameter: Parameter) -> list[str]:
     if parameter.lookup is None:
         return [f"uniform {parameter.type} {parameter.name}_value;"]
-    declared = [f"uniform vec2 {parameter.name}_scale_bias;"]
+    declared = [
+        f"uniform {parameter.type} {parameter.name}_scale;",
+        f"uniform float {parameter.name}_bias;",
+    ]
     if parameter.type == "float":
         declared.append(f"uniform int {parameter.name}_channel;")
     return declared
@@ -57,4 +60,4 @@ def _value(parameter: Parameter) -> str:
         return f"{name}_value"
     # Indexing the texel keeps an infinity in another channel out; a dot product would not.
     channel = ".rgb" if parameter.type == "vec3" else f"[{name}_channel]"
-    return f"{name}_scale_bias.x * texel_{parameter.lookup}{channel} + {name}_scale_bias.y"
+    return f"{name}_scale * texel_{parameter.lookup}{channel} + {name}_bias"

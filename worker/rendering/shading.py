@@ -138,16 +138,18 @@ class _Plan:
 
     def parameter(self, surface: SurfaceSpec, name: str, kind: str) -> Parameter:
         value = getattr(surface, name)
-        if not isinstance(value, Map):
+        if not isinstance(value, ColorMap | NumberMap):
             self._uniforms[name + "_value"] = _plain(surface, name, kind, value)
             return Parameter(name, kind, None)
-        self._uniforms[name + "_scale_bias"] = (value.scale, value.bias)
+        self._uniforms[name + "_bias"] = value.bias
         if isinstance(value, NumberMap):
+            self._uniforms[name + "_scale"] = value.scale
             self._uniforms[name + "_channel"] = "rgba".index(value.channel)
+        else:
+            self._uniforms[name + "_scale"] = value.scale * np.array(value.tint)
         return Parameter(name, kind, self._lookup(value, _MEANINGS[kind]))
 
-    def _lookup(self, mapped: Map, meaning: Meaning) -> int:
-        assert isinstance(mapped, ColorMap | NumberMap)
+    def _lookup(self, mapped: ColorMap | NumberMap, meaning: Meaning) -> int:
         picture = self._picture(mapped, mapped.texture, meaning)
         layout = LookupLayout(mapped.coordinates.technique, mapped.filter, picture)
         key = json.dumps(

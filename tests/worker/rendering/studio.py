@@ -3,7 +3,7 @@
 import hashlib
 import json
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +11,9 @@ from numpy.typing import NDArray
 from api_schemas.output import RenderOutput
 from api_schemas.scene import Scene
 from worker.images.image import Image
+
+if TYPE_CHECKING:
+    from worker.geometry.model import Model
 
 Pixels = NDArray[np.float32]
 
@@ -21,6 +24,7 @@ class Studio:
     def __init__(self, render: Callable[..., Any]) -> None:
         self._render = render
         self._arrays: dict[str, Pixels] = {}
+        self.models: dict[str, Model] = {}
         self.facts: dict[str, Any] = {}
         self.reports: list[tuple[float, str]] = []
 
@@ -45,6 +49,7 @@ class Studio:
             Scene.model_validate_json(json.dumps(scene)),
             RenderOutput(size=list(size), supersampling=supersampling),
             lambda spec, meaning: Image(self._arrays[spec.asset], meaning),
+            lambda mesh: self.models[mesh.asset],
             lambda fraction, stage: self.reports.append((fraction, stage)),
         )
         self.facts = rendering.timings | rendering.counts

@@ -70,7 +70,7 @@ def test_a_ring_is_not_convex_nor_is_a_shape_seen_from_inside() -> None:
 
 def test_two_convex_shapes_are_not_one() -> None:
     box = build(meshes.Box(type="box"))
-    positions = np.concatenate([box.positions, box.positions + [5.0, 0, 0]])
+    positions = np.concatenate([box.positions, box.positions + np.array([5.0, 0, 0])])
     triangles = np.concatenate([box.triangles, box.triangles + len(box.positions)])
 
     assert not is_convex(positions, triangles.astype(np.uint32))
