@@ -1,7 +1,7 @@
 """The fragment shader of a surface: its chunk, and generated code that fills its parameters."""
 
 from worker.rendering.chunks import Source, chunk, join
-from worker.rendering.shading import Parameter, ShadingLayout
+from worker.rendering.shading import LookupLayout, Parameter, ShadingLayout
 
 VERSION = "#version 410 core"
 
@@ -33,13 +33,17 @@ def _fragment(layout: ShadingLayout) -> str:
     for index, lookup in enumerate(lookups):
         lines.append(
             f"    vec4 texel_{index} = sample_{lookup.filter}(picture_{lookup.picture}, "
-            f"look_up(coordinates_{lookup.coordinates}(point), lookup_transform[{index}], "
+            f"look_up({_coordinates(lookup)}, lookup_transform[{index}], "
             f"lookup_period[{index}], lookup_size[{index}]));"
         )
     lines.append("    Surface surface;")
     lines += [f"    surface.{p.name} = {_value(p)};" for p in layout.parameters]
     lines += ["    color = holdable(shade(point, surface));", "}"]
     return "\n".join(lines)
+
+
+def _coordinates(lookup: LookupLayout) -> str:
+    return f"coordinates_{lookup.coordinates}({', '.join(['point', *map(str, lookup.choices)])})"
 
 
 def _declarations(parameter: Parameter) -> list[str]:

@@ -98,7 +98,13 @@ def render(
         report(done / len(parts), "draw")
         samples = (tile.width * output.supersampling, tile.height * output.supersampling)
         engine.renderer.draw(
-            drawn, built.view, lights, target, tile_from_picture(tile, width, height), samples
+            drawn,
+            built.view,
+            lights,
+            target,
+            tile_from_picture(tile, width, height),
+            samples,
+            output.supersampling,
         )
         top = height - tile.bottom - tile.height
         engine.targets.resolve(

@@ -42,9 +42,17 @@ class Parameter:
 
 @dataclass(frozen=True, slots=True)
 class LookupLayout:
-    """One reading of a picture; parameters that share a lookup cost one."""
+    """One reading of a picture; parameters that share a lookup cost one.
+
+    Attributes:
+        coordinates: The technique that says where.
+        choices: Its parameters, in the order of its fields; they are constants of the program.
+        filter: How texels become a pixel.
+        picture: Which unit is read.
+    """
 
     coordinates: str
+    choices: tuple[int, ...]
     filter: Filter
     picture: int
 
@@ -151,7 +159,8 @@ class _Plan:
 
     def _lookup(self, mapped: ColorMap | NumberMap, meaning: Meaning) -> int:
         picture = self._picture(mapped, mapped.texture, meaning)
-        layout = LookupLayout(mapped.coordinates.technique, mapped.filter, picture)
+        technique, *choices = mapped.coordinates.model_dump().values()
+        layout = LookupLayout(technique, tuple(choices), mapped.filter, picture)
         key = json.dumps(
             [picture, mapped.filter, mapped.coordinates.model_dump(), mapped.transform.model_dump()]
         )

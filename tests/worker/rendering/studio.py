@@ -1,21 +1,22 @@
 """A small studio: pictures as textures, scenes as dictionaries, pixels back."""
 
 import hashlib
+import itertools
 import json
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from api_schemas.output import RenderOutput
 from api_schemas.scene import Scene
+from worker.geometry.mesh import Mesh
+from worker.geometry.model import Model, Part
 from worker.images.image import Image
 
-if TYPE_CHECKING:
-    from worker.geometry.model import Model
-
 Pixels = NDArray[np.float32]
+_MESHES = itertools.count()  # the renderer keeps meshes by name, from one studio to the next
 
 
 class Studio:
@@ -40,6 +41,13 @@ class Studio:
     def array(self, texture: dict[str, Any]) -> Pixels:
         """The array of a texture spec."""
         return self._arrays[texture["asset"]]
+
+    def mesh(self, mesh: Mesh) -> dict[str, Any]:
+        """Make a mesh spec of vertices: a model that is one part and nothing else."""
+        name = hashlib.sha256(f"vertices {next(_MESHES)}".encode()).hexdigest()
+        part = Part(mesh, np.eye(4), node=None, material=None, key="")
+        self.models[name] = Model((part,), (), (), (), (), {}, ())
+        return {"type": "model", "asset": name}
 
     def draw(
         self, scene: dict[str, Any], size: tuple[int, int] = (32, 32), supersampling: int = 1
