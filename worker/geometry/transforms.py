@@ -129,9 +129,14 @@ def normal_matrix(world_from_object: Matrix) -> Matrix:
     """Give the 3 x 3 matrix that keeps normals outward: the cofactors, signed by the determinant.
 
     It equals the inverse transpose up to a positive factor and exists for flat scales too.
+
+    Args:
+        world_from_object: (..., 4, 4), one matrix or many.
     """
-    m = world_from_object[:3, :3]
-    cofactors = np.stack([np.cross(m[1], m[2]), np.cross(m[2], m[0]), np.cross(m[0], m[1])])
-    largest = np.abs(cofactors).max()
-    flip = -1.0 if np.linalg.det(m) < 0 else 1.0
-    return cofactors * (flip / largest) if largest > 0 else np.eye(3)
+    m = world_from_object[..., :3, :3]
+    x, y, z = m[..., 0, :], m[..., 1, :], m[..., 2, :]
+    cofactors = np.stack([np.cross(y, z), np.cross(z, x), np.cross(x, y)], axis=-2)
+    largest = np.abs(cofactors).max(axis=(-2, -1), keepdims=True)
+    flip = np.where(np.linalg.det(m) < 0, -1.0, 1.0)[..., None, None]
+    scaled = np.divide(cofactors * flip, largest, out=np.zeros_like(m), where=largest > 0)
+    return np.where(largest > 0, scaled, np.eye(3))

@@ -19,7 +19,8 @@ from worker.geometry.model import Model
 from worker.images.image import Image
 from worker.rendering.gl_context import GLContext, check
 from worker.rendering.lighting import light_uniforms
-from worker.rendering.pyrender_adapter import FloatRenderer, pyrender_scene
+from worker.rendering.pyrender_adapter import FloatRenderer
+from worker.rendering.pyrender_scene import FlatScene
 from worker.rendering.scene_builder import ModelReader, SceneBuilder, TextureMaker
 from worker.rendering.shading import surface_fields
 from worker.rendering.targets import TargetPair
@@ -88,7 +89,7 @@ def render(
     report(0.0, "build")
     built = engine.builder.build(scene, width / height, textures, models)
     lights = light_uniforms(built.lights, built.view.world_from_camera[:3, 3])
-    drawn = pyrender_scene(built.drawables, built.view)
+    drawn = FlatScene(built.drawables, built.view, built.background)
     pixels = np.empty((height, width, 4), dtype=np.float32)
     start, jit_before = time.perf_counter(), engine.renderer.jit_seconds
     side = pixels_per_tile(output.supersampling)

@@ -3,6 +3,7 @@
 The layout decides the program; numbers, transforms and channels are uniforms and do not.
 """
 
+import functools
 import json
 import math
 import re
@@ -12,7 +13,7 @@ from typing import Any, Protocol, get_args
 
 import numpy as np
 
-from api_schemas.families import Meaning, SurfaceSpec, TextureSpec
+from api_schemas.families import AlphaMode, Meaning, SurfaceSpec, TextureSpec
 from api_schemas.maps import ColorMap, Filter, Map, NumberMap, TextureTransform
 from worker.errors import RenderError
 from worker.rendering.chunks import chunk
@@ -67,10 +68,21 @@ class PictureLayout:
 
 @dataclass(frozen=True, slots=True)
 class ShadingLayout:
-    """What decides a program; equal layouts share a program object."""
+    """What decides a program; equal layouts share a program object.
+
+    Attributes:
+        technique: The surface's.
+        parameters: The fields of its struct Surface.
+        alpha_mode: Whether opacity is ignored, cuts holes, or lets through what is behind.
+        opacity: How it is read, unless it is ignored.
+        lookups: Readings of pictures.
+        pictures: Texture units.
+    """
 
     technique: str
     parameters: tuple[Parameter, ...]
+    alpha_mode: AlphaMode
+    opacity: Parameter | None
     lookups: tuple[LookupLayout, ...]
     pictures: tuple[PictureLayout, ...]
 
@@ -86,13 +98,15 @@ class Picture:
 
 @dataclass(frozen=True, slots=True)
 class Shading:
-    """A surface ready to draw."""
+    """A surface ready to draw; `double_sided` says whether its inner side is drawn too."""
 
     layout: ShadingLayout
     uniforms: dict[str, Any]
     pictures: tuple[Picture, ...]
+    double_sided: bool
 
 
+@functools.cache
 def surface_fields(technique: str) -> dict[str, str]:
     """Return name and GLSL type of each field in the technique's struct Surface.
 
@@ -116,16 +130,19 @@ def shade(surface: SurfaceSpec, texture_of: TextureSource) -> Shading:
         plan.parameter(surface, name, kind)
         for name, kind in surface_fields(surface.technique).items()
     )
+    opacity = plan.opacity(surface)
     pictures = tuple(plan.pictures)
     layout = ShadingLayout(
         technique=surface.technique,
         parameters=parameters,
+        alpha_mode=surface.alpha_mode,
+        opacity=opacity,
         lookups=tuple(lookup.layout for lookup in plan.lookups),
         pictures=tuple(
             PictureLayout(picture.sampling, picture.texture.format) for picture in pictures
         ),
     )
-    return Shading(layout, plan.all_uniforms(), pictures)
+    return Shading(layout, plan.all_uniforms(), pictures, surface.double_sided)
 
 
 @dataclass(frozen=True, slots=True)
@@ -156,6 +173,13 @@ class _Plan:
         else:
             self._uniforms[name + "_scale"] = value.scale * np.array(value.tint)
         return Parameter(name, kind, self._lookup(value, _MEANINGS[kind]))
+
+    def opacity(self, surface: SurfaceSpec) -> Parameter | None:
+        if surface.alpha_mode == "opaque":
+            return None
+        if surface.alpha_mode == "mask":
+            self._uniforms["alpha_cutoff"] = surface.alpha_cutoff
+        return self.parameter(surface, "opacity", "float")
 
     def _lookup(self, mapped: ColorMap | NumberMap, meaning: Meaning) -> int:
         picture = self._picture(mapped, mapped.texture, meaning)

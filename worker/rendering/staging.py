@@ -16,7 +16,7 @@ from worker.errors import RenderError
 from worker.geometry.model import Model, NamedCamera
 from worker.geometry.transforms import Matrix, clip_from_camera, orthonormal, world_from_camera
 from worker.rendering.framing import Placed, frame, lamp
-from worker.rendering.pyrender_adapter import View
+from worker.rendering.pyrender_scene import View
 
 Camera = PerspectiveCamera | OrthographicCamera | FramedCamera | ModelCamera
 
