@@ -16,6 +16,18 @@ MediaType = Literal["image/png", "image/x-exr"]
 PngBits = Literal[8, 16]
 ExrType = Literal["half", "float"]
 ToneCurve = Literal["none", "reinhard", "aces"]
+LayerName = Literal[
+    "depth",
+    "position",
+    "normal",
+    "geometric_normal",
+    "tangent",
+    "uv",
+    "albedo",
+    "object_id",
+    "material_id",
+    "coverage",
+]
 
 MEDIA_TYPES: Mapping[Format, MediaType] = {"png": "image/png", "exr": "image/x-exr"}
 """The media type of each file format."""
@@ -54,4 +66,7 @@ class RenderOutput(Output):
 
     supersampling: Annotated[int, Field(ge=1, le=8), WHOLE] = Field(
         default=2, description="Samples per pixel along each side: more are smoother and slower."
+    )
+    layers: Annotated[list[LayerName], Field(max_length=10)] = Field(
+        default=[], description="What an EXR holds beside the picture."
     )

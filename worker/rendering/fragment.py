@@ -6,18 +6,20 @@ from worker.rendering.shading import Parameter, ShadingLayout
 VERSION = "#version 410 core"
 
 
-def surface_sources(layout: ShadingLayout) -> tuple[Source, Source]:
-    """Return the vertex and the fragment source that draw a layout."""
-    return join(chunk("mesh.vert"), "mesh.vert"), join(_fragment(layout), layout.technique)
+def surface_sources(layout: ShadingLayout, *, layered: bool) -> tuple[Source, Source]:
+    """Return the vertex and the fragment source that draw a layout, with or without all layers."""
+    fragment = _fragment(layout, layered)
+    return join(chunk("mesh.vert"), "mesh.vert"), join(fragment, layout.technique)
 
 
-def _fragment(layout: ShadingLayout) -> str:
+def _fragment(layout: ShadingLayout, layered: bool) -> str:
     lookups = layout.lookups
     chunks = [
         "lib/fragment.glsl",
         f"surfaces/{layout.technique}.glsl",
         *(f"coordinates/{lookup.coordinates}.glsl" for lookup in lookups),
         *(f"lib/sample_{lookup.filter}.glsl" for lookup in lookups),
+        *(["lib/layers.glsl"] if layered else []),
     ]
     lines = [VERSION, *(f'#include "{name}"' for name in dict.fromkeys(chunks))]
     if lookups:
@@ -38,8 +40,10 @@ def _fragment(layout: ShadingLayout) -> str:
         )
     lines.append("    Surface surface;")
     lines += [f"    surface.{p.name} = {_value(p)};" for p in layout.parameters]
-    lines += ["    color = holdable(shade(point, surface));", "}"]
-    return "\n".join(lines)
+    lines.append("    color = holdable(shade(point, surface));")
+    if layered:
+        lines.append("    write_layers(point, albedo(surface), color.a);")
+    return "\n".join([*lines, "}"])
 
 
 def _declarations(parameter: Parameter) -> list[str]:

@@ -20,6 +20,7 @@ from worker.geometry.mesh import Mesh
 from worker.geometry.transforms import Matrix, normal_matrix, rigid_inverse
 from worker.rendering.fragment import surface_sources
 from worker.rendering.gl_context import GL, GLContext, check
+from worker.rendering.layer_uniforms import LayerUniforms
 from worker.rendering.programs import Program, ProgramCache
 from worker.rendering.samplers import SamplerCache
 from worker.rendering.shading import Shading
@@ -48,20 +49,22 @@ class View:
 
 @dataclass(frozen=True, slots=True)
 class Drawable:
-    """A mesh in OpenGL, a surface, and where they stand."""
+    """A mesh in OpenGL, a surface, where they stand, and the number of the surface from 1."""
 
     primitive: UploadedMesh
     shading: Shading
     world_from_object: Matrix
+    material: int
 
 
 class SurfaceMaterial(pyrender.Material):  # type: ignore[misc]
     """Carries a shading through pyrender's traversal. Textures are ours to upload and to free."""
 
-    def __init__(self, shading: Shading) -> None:
-        """Make a material that draws both sides of a surface."""
+    def __init__(self, shading: Shading, number: int) -> None:
+        """Make a material that draws both sides of a surface; `number` is its material id."""
         super().__init__(doubleSided=True)
         self.shading = shading
+        self.number = number
 
     @property
     def textures(self) -> set[Any]:
@@ -115,7 +118,7 @@ def pyrender_scene(drawables: Sequence[Drawable], view: View) -> "pyrender.Scene
     for order, drawable in enumerate(drawables):
         # A copy shares the vertex buffers: one mesh may be drawn with many surfaces.
         primitive = copy.copy(drawable.primitive)
-        primitive.material = SurfaceMaterial(drawable.shading)
+        primitive.material = SurfaceMaterial(drawable.shading, drawable.material)
         mesh = pyrender.Mesh([primitive])
         scene.add_node(PlacedNode(drawable.world_from_object, order, mesh=mesh))
     return scene
@@ -163,6 +166,7 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         self._context = context
         self._programs = ProgramCache(_TraversedProgram)
         self._samplers = SamplerCache()
+        self._layers = LayerUniforms()
         self._frame: _Frame | None = None
         self.jit_seconds = 0.0
 
@@ -214,6 +218,7 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
     def _configure_forward_pass_viewport(self, flags: int) -> None:
         assert self._frame is not None
         GL.glBindFramebuffer(GL.GL_DRAW_FRAMEBUFFER, self._frame.target.framebuffer)
+        self._frame.target.write(averaged=True, nearest=True)
         GL.glViewport(0, 0, self.viewport_width, self.viewport_height)
         GL.glEnable(GL.GL_DEPTH_TEST)
         GL.glDepthMask(True)
@@ -236,9 +241,13 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         )
 
     def _get_primitive_program(self, primitive: Any, flags: int, program_flags: int) -> Program:
+        assert self._frame is not None
         layout = primitive.material.shading.layout
+        layered = self._frame.target.layered
         start = time.perf_counter()
-        program = self._programs.get(layout, lambda: surface_sources(layout))
+        program = self._programs.get(
+            (layout, layered), lambda: surface_sources(layout, layered=layered)
+        )
         if not program.drawn:
             self.jit_seconds += time.perf_counter() - start
         return program
@@ -248,6 +257,8 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         if "light_count" in program.uniforms:
             for name, value in self._frame.lights.items():
                 program.set(name, value)
+        if self._frame.target.layered:
+            program.set("object_id", node.order + 1)
 
     def _bind_and_draw_primitive(
         self, primitive: Any, pose: Matrix, program: Program, flags: int
@@ -266,6 +277,10 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
             GL.glBindTexture(GL.GL_TEXTURE_2D, picture.texture.number)
             GL.glBindSampler(unit, self._samplers.get(picture.sampling, picture.border))
             program.set(f"picture_{unit}", unit)
+        if frame.target.layered:
+            program.set("material_id", primitive.material.number)
+            vertices, _, indices = primitive._buffers
+            self._layers.set(program, frame.view.world_from_camera, (vertices, indices), 8)
         start = time.perf_counter()
         primitive._bind()
         # A mirrored transform turns the winding, but not which side is the outer one.
@@ -292,3 +307,4 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         """Free programs and samplers."""
         self._programs.delete()
         self._samplers.delete()
+        self._layers.delete()

@@ -1,13 +1,14 @@
-"""Draw a request's scene: build, tile by tile, resolved to one float picture."""
+"""Draw a request's scene: build, tile by tile, resolved to bands of float pixels."""
 
 import atexit
 import functools
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from api_schemas.families import Meaning, TextureSpec
 from api_schemas.language import FAMILIES
@@ -16,27 +17,41 @@ from api_schemas.scene import Scene
 from worker.images.image import Image
 from worker.rendering.gl_context import GLContext, check
 from worker.rendering.lighting import light_uniforms
+from worker.rendering.packing import PICTURE, PLACES, Place
 from worker.rendering.pyrender_adapter import FloatRenderer, pyrender_scene
-from worker.rendering.scene_builder import SceneBuilder, TextureMaker
+from worker.rendering.scene_builder import BuiltScene, SceneBuilder, TextureMaker
 from worker.rendering.shading import surface_fields
-from worker.rendering.targets import TargetPair
-from worker.rendering.tiles import pixels_per_tile, tile_from_picture, tiles
+from worker.rendering.targets import Target, TargetPair
+from worker.rendering.tiles import (
+    LAYERED_SAMPLES_MAX,
+    SAMPLES_MAX,
+    Tile,
+    bands,
+    tile_from_picture,
+    tile_size,
+)
 from worker.stages import Report
 
+Pixels: TypeAlias = NDArray[np.float32]
+Band: TypeAlias = Mapping[str, Image]
+"""Some rows of the picture, as PICTURE, and of each layer that was asked for, by its name."""
 
-@dataclass(frozen=True, slots=True)
+
+@dataclass(slots=True)
 class Rendering:
-    """A picture and what it cost.
+    """A picture that is drawn while its bands are read, and what it cost.
 
     Attributes:
-        image: float32 (height, width, 4), linear, alpha premultiplied; 0 where nothing is.
-        timings: Milliseconds: draw_ms, and jit_ms for linking programs and their first draws.
+        bands: The picture from the top: float32 (rows, width, channels), linear, alpha
+            premultiplied; 0 where nothing is, but for the depth, which is 1e10 there.
         counts: triangles and texels.
+        timings: Milliseconds, whole after the last band: build_ms, draw_ms, and jit_ms for linking
+            programs and their first draws.
     """
 
-    image: Image
-    timings: dict[str, float]
+    bands: Iterator[Band]
     counts: dict[str, int]
+    timings: dict[str, float]
 
 
 class _Engine:
@@ -59,11 +74,13 @@ def _engine() -> _Engine:
 def render(scene: Scene, output: RenderOutput, textures: TextureMaker, report: Report) -> Rendering:
     """Draw a scene as linear light.
 
-    Always call it from the same thread; the first call opens the process's OpenGL context.
+    Always call it, and read its bands, from the same thread; the first call opens the process's
+    OpenGL context. Nothing else may be rendered before the last band is read.
 
     Args:
         scene: What to draw.
-        output: Its size and supersampling count here; the file is not this function's business.
+        output: Its size, supersampling and layers count here, the file is not this function's
+            business.
         textures: Makes the picture of a texture, read as "colour" or "data".
         report: Called with the finished part, 0..1, and the stage's name.
 
@@ -74,36 +91,73 @@ def render(scene: Scene, output: RenderOutput, textures: TextureMaker, report: R
     engine.context.check_thread()
     width, height = output.size
     report(0.0, "build")
+    start = time.perf_counter()
     built = engine.builder.build(scene, width / height, textures)
+    timings = {"build_ms": _milliseconds(time.perf_counter() - start)}
+    counts = {"triangles": built.triangles, "texels": built.texels}
+    return Rendering(_draw(engine, scene, built, output, timings, report), counts, timings)
+
+
+def _draw(
+    engine: _Engine,
+    scene: Scene,
+    built: BuiltScene,
+    output: RenderOutput,
+    timings: dict[str, float],
+    report: Report,
+) -> Iterator[Band]:
+    width, height = output.size
     lights = light_uniforms(scene.lights, built.view.world_from_camera[:3, 3])
     drawn = pyrender_scene(built.drawables, built.view)
-    pixels = np.empty((height, width, 4), dtype=np.float32)
-    start, jit_before = time.perf_counter(), engine.renderer.jit_seconds
-    side = pixels_per_tile(output.supersampling)
-    target = engine.targets.fit(min(width, side), min(height, side), output.supersampling)
-    parts = list(tiles(width, height, output.supersampling))
-    for done, tile in enumerate(parts):
-        report(done / len(parts), "draw")
-        samples = (tile.width * output.supersampling, tile.height * output.supersampling)
-        engine.renderer.draw(
-            drawn, built.view, lights, target, tile_from_picture(tile, width, height), samples
-        )
-        top = height - tile.bottom - tile.height
-        engine.targets.resolve(
-            output.supersampling,
-            pixels[top : top + tile.height, tile.left : tile.left + tile.width],
-        )
-    check("resolving samples")
+    layered = bool(output.layers)
+    places = {name: PLACES[name] for name in (PICTURE, *output.layers)}
+    size = tile_size(
+        width, height, output.supersampling, LAYERED_SAMPLES_MAX if layered else SAMPLES_MAX
+    )
+    target = engine.targets.fit(*size, output.supersampling, layered=layered)
+    spent, jit_before = 0.0, engine.renderer.jit_seconds
+    rows_done = 0
+    for tiles in bands(width, height, size):
+        start = time.perf_counter()
+        rows = tiles[0].height
+        band = {
+            name: np.empty((rows, width, place.channels), np.float32)
+            for name, place in places.items()
+        }
+        for tile in tiles:
+            report((rows_done + rows * tile.left / width) / height, "draw")
+            samples = (tile.width * output.supersampling, tile.height * output.supersampling)
+            engine.renderer.draw(
+                drawn, built.view, lights, target, tile_from_picture(tile, width, height), samples
+            )
+            pixels = engine.targets.resolve(tile.width, tile.height, output.supersampling)
+            _read(pixels, tile, places, band)
+        check("resolving samples")
+        rows_done += rows
+        spent += time.perf_counter() - start
+        yield {name: Image(band[name], place.meaning) for name, place in places.items()}
     jit = engine.renderer.jit_seconds - jit_before
-    timings = {
-        "draw_ms": round((time.perf_counter() - start - jit) * 1000, 3),
-        "jit_ms": round(jit * 1000, 3),
-    }
-    counts = {"triangles": built.triangles, "texels": built.texels}
+    timings |= {"draw_ms": _milliseconds(spent - jit), "jit_ms": _milliseconds(jit)}
     engine.builder.trim()
     engine.renderer.trim()
+    engine.targets.trim()
     report(1.0, "draw")
-    return Rendering(Image(pixels, "colour"), timings, counts)
+
+
+def _read(
+    pixels: Target, tile: Tile, places: Mapping[str, Place], band: Mapping[str, Pixels]
+) -> None:
+    """Copy a tile's part of every layer into the band."""
+    for attachment in {place.attachment for place in places.values()}:
+        numbers = pixels.read(attachment, tile.width, tile.height)
+        for name, place in places.items():
+            if place.attachment == attachment:
+                columns = slice(tile.left, tile.left + tile.width)
+                band[name][:, columns] = numbers[..., place.start : place.end]
+
+
+def _milliseconds(seconds: float) -> float:
+    return round(seconds * 1000, 3)
 
 
 def fingerprint() -> str:
@@ -120,7 +174,7 @@ def warm(report: Report) -> None:
     surfaces = list(_typical())
     for done, surface in enumerate(surfaces):
         report(done / len(surfaces), f"compile {surface['technique']}")
-        render(_poster(surface), output, _grey, lambda fraction, stage: None)
+        list(render(_poster(surface), output, _grey, lambda fraction, stage: None).bands)
     report(1.0, "compile")
 
 

@@ -72,10 +72,13 @@ class SceneBuilder:
             orthographic=isinstance(scene.camera, OrthographicCamera),
         )
         drawables = []
+        materials: dict[str, int] = {}
         triangles = 0
         for node, matrix in _placed(scene.nodes, np.eye(4)):
             if node.mesh is not None:
-                drawables.append(self._drawable(node.mesh, node.surface, matrix, maker))
+                surface = node.surface or _MATT_GREY
+                number = materials.setdefault(surface.model_dump_json(), len(materials) + 1)
+                drawables.append(self._drawable(node.mesh, surface, number, matrix, maker))
                 triangles += node.mesh.triangles
         pictures = {
             picture.texture.number: picture.texture
@@ -97,7 +100,8 @@ class SceneBuilder:
     def _drawable(
         self,
         mesh: meshes.Mesh,
-        surface: SurfaceSpec | None,
+        surface: SurfaceSpec,
+        number: int,
         matrix: Matrix,
         maker: TextureMaker,
     ) -> Drawable:
@@ -107,8 +111,9 @@ class SceneBuilder:
 
         return Drawable(
             primitive=self._meshes.get(mesh.model_dump_json(), lambda: _mesh(mesh)),
-            shading=shade(surface or _MATT_GREY, texture_of),
+            shading=shade(surface, texture_of),
             world_from_object=matrix,
+            material=number,
         )
 
 
