@@ -16,7 +16,8 @@ MediaType = Literal["image/png", "image/x-exr"]
 PngBits = Literal[8, 16]
 ExrType = Literal["half", "float"]
 ToneCurve = Literal["none", "reinhard", "aces"]
-LayerName = Literal[
+
+Layer = Literal[
     "depth",
     "position",
     "normal",
@@ -67,6 +68,9 @@ class RenderOutput(Output):
     supersampling: Annotated[int, Field(ge=1, le=8), WHOLE] = Field(
         default=2, description="Samples per pixel along each side: more are smoother and slower."
     )
-    layers: Annotated[list[LayerName], Field(max_length=10)] = Field(
-        default=[], description="What an EXR holds beside the picture."
+    layers: Annotated[list[Layer], Field(max_length=10)] = Field(
+        default=[],
+        json_schema_extra={"uniqueItems": True},
+        description="What an EXR tells of each pixel besides its colour; a PNG shows one layer "
+        "instead of the colour.",
     )

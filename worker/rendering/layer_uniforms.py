@@ -3,46 +3,42 @@
 from worker.geometry.transforms import Matrix
 from worker.rendering.gl_context import GL
 from worker.rendering.programs import Program
+from worker.rendering.vertex_arrays import VertexArray
 
-_UNITS = {"mesh_vertices": 30, "mesh_indices": 31}  # maps take the first 24
-_FORMATS = {"mesh_vertices": GL.GL_R32F, "mesh_indices": GL.GL_R32UI}
+_UNIT = 31  # maps take the first 24
 
 
 class LayerUniforms:
-    """Sets the uniforms of programs with layers; it owns two views of the mesh that is drawn."""
+    """Sets the uniforms of programs with layers, and keeps the faces of what is being drawn."""
 
     def __init__(self) -> None:
         """Begin with nothing in OpenGL."""
-        self._views: dict[str, int] = {}
+        self._faces: dict[int, tuple[int, int]] = {}
 
-    def set(
-        self,
-        program: Program,
-        world_from_camera: Matrix,
-        buffers: tuple[int, int],
-        stride: int,
-    ) -> None:
-        """Tell the bound program where the eye is and what the mesh is made of.
-
-        Args:
-            program: It includes lib/layers.glsl.
-            world_from_camera: The eye.
-            buffers: The mesh's vertices, positions first, and its indices.
-            stride: Floats from one vertex to the next; 0 for what has no triangles.
-        """
+    def set(self, program: Program, world_from_camera: Matrix, mesh: VertexArray) -> None:
+        """Tell the bound program where the eye is and how the mesh's triangles lie."""
         program.set("eye_position", world_from_camera[:3, 3])
         program.set("view_axis", -world_from_camera[:3, 2])
-        program.set("mesh_stride", stride)
-        if not self._views:
-            self._views = {name: int(GL.glGenTextures(1)) for name in _UNITS}
-        for (name, unit), buffer in zip(_UNITS.items(), buffers, strict=True):
-            GL.glActiveTexture(GL.GL_TEXTURE0 + unit)
-            GL.glBindTexture(GL.GL_TEXTURE_BUFFER, self._views[name])
-            GL.glTexBuffer(GL.GL_TEXTURE_BUFFER, _FORMATS[name], buffer)
-            program.set(name, unit)
+        program.set("has_faces", mesh.has_sides)
+        program.set("face_normals", _UNIT)
+        if mesh.has_sides:
+            GL.glActiveTexture(GL.GL_TEXTURE0 + _UNIT)
+            GL.glBindTexture(GL.GL_TEXTURE_BUFFER, self._texture(mesh))
 
-    def delete(self) -> None:
-        """Free the views."""
-        if self._views:
-            GL.glDeleteTextures(list(self._views.values()))
-            self._views = {}
+    def trim(self) -> None:
+        """Free the faces of what was drawn."""
+        for buffer, texture in self._faces.values():
+            GL.glDeleteTextures([texture])
+            GL.glDeleteBuffers(1, [buffer])
+        self._faces.clear()
+
+    def _texture(self, mesh: VertexArray) -> int:
+        if mesh.number not in self._faces:
+            normals = mesh.face_normals()
+            buffer, texture = int(GL.glGenBuffers(1)), int(GL.glGenTextures(1))
+            GL.glBindBuffer(GL.GL_TEXTURE_BUFFER, buffer)
+            GL.glBufferData(GL.GL_TEXTURE_BUFFER, normals.nbytes, normals, GL.GL_STATIC_DRAW)
+            GL.glBindTexture(GL.GL_TEXTURE_BUFFER, texture)
+            GL.glTexBuffer(GL.GL_TEXTURE_BUFFER, GL.GL_RGB32F, buffer)
+            self._faces[mesh.number] = (buffer, texture)
+        return self._faces[mesh.number][1]

@@ -12,14 +12,17 @@ from numpy.typing import NDArray
 
 from api_schemas.families import Meaning, TextureSpec
 from api_schemas.language import FAMILIES
+from api_schemas.model_mesh import ModelMesh
 from api_schemas.output import RenderOutput
 from api_schemas.scene import Scene
+from worker.errors import RenderError
+from worker.geometry.model import Model
 from worker.images.image import Image
 from worker.rendering.gl_context import GLContext, check
 from worker.rendering.lighting import light_uniforms
 from worker.rendering.packing import PICTURE, PLACES, Place
 from worker.rendering.pyrender_adapter import FloatRenderer, pyrender_scene
-from worker.rendering.scene_builder import BuiltScene, SceneBuilder, TextureMaker
+from worker.rendering.scene_builder import BuiltScene, ModelReader, SceneBuilder, TextureMaker
 from worker.rendering.shading import surface_fields
 from worker.rendering.targets import Target, TargetPair
 from worker.rendering.tiles import (
@@ -47,11 +50,13 @@ class Rendering:
         counts: triangles and texels.
         timings: Milliseconds, whole after the last band: build_ms, draw_ms, and jit_ms for linking
             programs and their first draws.
+        warnings: What uploaded models ask for and do not get.
     """
 
     bands: Iterator[Band]
     counts: dict[str, int]
     timings: dict[str, float]
+    warnings: tuple[str, ...]
 
 
 class _Engine:
@@ -71,7 +76,13 @@ def _engine() -> _Engine:
     return _Engine()
 
 
-def render(scene: Scene, output: RenderOutput, textures: TextureMaker, report: Report) -> Rendering:
+def render(
+    scene: Scene,
+    output: RenderOutput,
+    textures: TextureMaker,
+    models: ModelReader,
+    report: Report,
+) -> Rendering:
     """Draw a scene as linear light.
 
     Always call it, and read its bands, from the same thread; the first call opens the process's
@@ -82,6 +93,7 @@ def render(scene: Scene, output: RenderOutput, textures: TextureMaker, report: R
         output: Its size, supersampling and layers count here, the file is not this function's
             business.
         textures: Makes the picture of a texture, read as "colour" or "data".
+        models: Reads uploaded models.
         report: Called with the finished part, 0..1, and the stage's name.
 
     Raises:
@@ -92,22 +104,22 @@ def render(scene: Scene, output: RenderOutput, textures: TextureMaker, report: R
     width, height = output.size
     report(0.0, "build")
     start = time.perf_counter()
-    built = engine.builder.build(scene, width / height, textures)
+    built = engine.builder.build(scene, width / height, textures, models)
     timings = {"build_ms": _milliseconds(time.perf_counter() - start)}
     counts = {"triangles": built.triangles, "texels": built.texels}
-    return Rendering(_draw(engine, scene, built, output, timings, report), counts, timings)
+    drawn = _draw(engine, built, output, timings, report)
+    return Rendering(drawn, counts, timings, built.warnings)
 
 
 def _draw(
     engine: _Engine,
-    scene: Scene,
     built: BuiltScene,
     output: RenderOutput,
     timings: dict[str, float],
     report: Report,
 ) -> Iterator[Band]:
     width, height = output.size
-    lights = light_uniforms(scene.lights, built.view.world_from_camera[:3, 3])
+    lights = light_uniforms(built.lights, built.view.world_from_camera[:3, 3])
     drawn = pyrender_scene(built.drawables, built.view)
     layered = bool(output.layers)
     places = {name: PLACES[name] for name in (PICTURE, *output.layers)}
@@ -128,7 +140,13 @@ def _draw(
             report((rows_done + rows * tile.left / width) / height, "draw")
             samples = (tile.width * output.supersampling, tile.height * output.supersampling)
             engine.renderer.draw(
-                drawn, built.view, lights, target, tile_from_picture(tile, width, height), samples
+                drawn,
+                built.view,
+                lights,
+                target,
+                tile_from_picture(tile, width, height),
+                samples,
+                output.supersampling,
             )
             pixels = engine.targets.resolve(tile.width, tile.height, output.supersampling)
             _read(pixels, tile, places, band)
@@ -142,22 +160,6 @@ def _draw(
     engine.renderer.trim()
     engine.targets.trim()
     report(1.0, "draw")
-
-
-def _read(
-    pixels: Target, tile: Tile, places: Mapping[str, Place], band: Mapping[str, Pixels]
-) -> None:
-    """Copy a tile's part of every layer into the band."""
-    for attachment in {place.attachment for place in places.values()}:
-        numbers = pixels.read(attachment, tile.width, tile.height)
-        for name, place in places.items():
-            if place.attachment == attachment:
-                columns = slice(tile.left, tile.left + tile.width)
-                band[name][:, columns] = numbers[..., place.start : place.end]
-
-
-def _milliseconds(seconds: float) -> float:
-    return round(seconds * 1000, 3)
 
 
 def fingerprint() -> str:
@@ -174,7 +176,7 @@ def warm(report: Report) -> None:
     surfaces = list(_typical())
     for done, surface in enumerate(surfaces):
         report(done / len(surfaces), f"compile {surface['technique']}")
-        list(render(_poster(surface), output, _grey, lambda fraction, stage: None).bands)
+        list(render(_poster(surface), output, _grey, _no_model, lambda fraction, stage: None).bands)
     report(1.0, "compile")
 
 
@@ -194,6 +196,10 @@ def _poster(surface: dict[str, Any]) -> Scene:
             "nodes": [{"mesh": {"type": "plane"}, "surface": surface}],
         }
     )
+
+
+def _no_model(mesh: ModelMesh) -> Model:
+    raise RenderError("there is no model to warm up with")
 
 
 def _grey(spec: TextureSpec, meaning: Meaning) -> Image:
