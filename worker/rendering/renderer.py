@@ -3,9 +3,9 @@
 import atexit
 import functools
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any, Self, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +20,7 @@ from worker.geometry.model import Model
 from worker.images.image import Image
 from worker.rendering.gl_context import GLContext, check
 from worker.rendering.lighting import light_uniforms
-from worker.rendering.packing import PICTURE, PLACES, Place
+from worker.rendering.packing import PICTURE, PLACES
 from worker.rendering.pyrender_adapter import FloatRenderer, pyrender_scene
 from worker.rendering.scene_builder import BuiltScene, ModelReader, SceneBuilder, TextureMaker
 from worker.rendering.shading import surface_fields
@@ -35,7 +35,6 @@ from worker.rendering.tiles import (
 )
 from worker.stages import Report
 
-Pixels: TypeAlias = NDArray[np.float32]
 Band: TypeAlias = Mapping[str, Image]
 """Some rows of the picture, as PICTURE, and of each layer that was asked for, by its name."""
 
@@ -69,6 +68,12 @@ class _Engine:
         self.builder = SceneBuilder()
         # pyrender's destructor would call OpenGL from a half-gone interpreter.
         atexit.register(self.renderer.delete)
+
+    def trim(self) -> None:
+        """Free what exceeds the bounds of what is kept for later pictures."""
+        self.builder.trim()
+        self.renderer.trim()
+        self.targets.trim()
 
 
 @functools.cache
@@ -107,59 +112,83 @@ def render(
     built = engine.builder.build(scene, width / height, textures, models)
     timings = {"build_ms": _milliseconds(time.perf_counter() - start)}
     counts = {"triangles": built.triangles, "texels": built.texels}
-    drawn = _draw(engine, built, output, timings, report)
+    lights = light_uniforms(built.lights, built.view.world_from_camera[:3, 3])
+    drawn = _bands(engine, built, lights, output, timings, report)
     return Rendering(drawn, counts, timings, built.warnings)
 
 
-def _draw(
+def _bands(
     engine: _Engine,
     built: BuiltScene,
+    lights: dict[str, Any],
     output: RenderOutput,
     timings: dict[str, float],
     report: Report,
 ) -> Iterator[Band]:
     width, height = output.size
-    lights = light_uniforms(built.lights, built.view.world_from_camera[:3, 3])
-    drawn = pyrender_scene(built.drawables, built.view)
+    supersampling = output.supersampling
     layered = bool(output.layers)
-    places = {name: PLACES[name] for name in (PICTURE, *output.layers)}
-    size = tile_size(
-        width, height, output.supersampling, LAYERED_SAMPLES_MAX if layered else SAMPLES_MAX
-    )
-    target = engine.targets.fit(*size, output.supersampling, layered=layered)
+    most = LAYERED_SAMPLES_MAX if layered else SAMPLES_MAX
+    size = tile_size(width, height, supersampling, most)
+    target = engine.targets.fit(*size, supersampling, layered=layered)
+    scene = pyrender_scene(built.drawables, built.view)
     spent, jit_before = 0.0, engine.renderer.jit_seconds
-    rows_done = 0
     for tiles in bands(width, height, size):
         start = time.perf_counter()
-        rows = tiles[0].height
-        band = {
-            name: np.empty((rows, width, place.channels), np.float32)
-            for name, place in places.items()
-        }
+        above = height - tiles[0].bottom - tiles[0].height
+        band = _Band.empty(output.layers, tiles[0].height, width)
         for tile in tiles:
-            report((rows_done + rows * tile.left / width) / height, "draw")
-            samples = (tile.width * output.supersampling, tile.height * output.supersampling)
+            report((above + tile.height * tile.left / width) / height, "draw")
             engine.renderer.draw(
-                drawn,
+                scene,
                 built.view,
                 lights,
                 target,
                 tile_from_picture(tile, width, height),
-                samples,
-                output.supersampling,
+                (tile.width * supersampling, tile.height * supersampling),
+                supersampling,
             )
-            pixels = engine.targets.resolve(tile.width, tile.height, output.supersampling)
-            _read(pixels, tile, places, band)
+            band.read(engine.targets.resolve(tile.width, tile.height, supersampling), tile)
         check("resolving samples")
-        rows_done += rows
         spent += time.perf_counter() - start
-        yield {name: Image(band[name], place.meaning) for name, place in places.items()}
+        yield band.images()
     jit = engine.renderer.jit_seconds - jit_before
     timings |= {"draw_ms": _milliseconds(spent - jit), "jit_ms": _milliseconds(jit)}
-    engine.builder.trim()
-    engine.renderer.trim()
-    engine.targets.trim()
+    engine.trim()
     report(1.0, "draw")
+
+
+@dataclass(frozen=True, slots=True)
+class _Band:
+    """Where the pixels of a band are put together: arrays (rows, width, channels) by place."""
+
+    pixels: dict[str, NDArray[np.float32]]
+
+    @classmethod
+    def empty(cls, layers: Sequence[str], rows: int, width: int) -> Self:
+        return cls(
+            {
+                name: np.empty((rows, width, PLACES[name].channels), np.float32)
+                for name in (PICTURE, *layers)
+            }
+        )
+
+    def read(self, resolved: Target, tile: Tile) -> None:
+        """Copy a tile's part of every layer from OpenGL."""
+        columns = slice(tile.left, tile.left + tile.width)
+        for attachment in {PLACES[name].attachment for name in self.pixels}:
+            numbers = resolved.read(attachment, tile.width, tile.height)
+            for name, pixels in self.pixels.items():
+                place = PLACES[name]
+                if place.attachment == attachment:
+                    pixels[:, columns] = numbers[..., place.start : place.end]
+
+    def images(self) -> Band:
+        return {name: Image(pixels, PLACES[name].meaning) for name, pixels in self.pixels.items()}
+
+
+def _milliseconds(seconds: float) -> float:
+    return round(seconds * 1000, 3)
 
 
 def fingerprint() -> str:
