@@ -32,7 +32,7 @@ class Place:
 
 PLACES: Mapping[str, Place] = {
     PICTURE: Place(0, 0, 4, "colour"),
-    "albedo": Place(1, 0, 3, "colour"),
+    "albedo": Place(1, 0, 4, "colour"),
     "coverage": Place(1, 3, 4),
     "normal": Place(2, 0, 3),
     "depth": Place(2, 3, 4),

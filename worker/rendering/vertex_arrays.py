@@ -111,7 +111,8 @@ def _contents(buffer: int, kind: type[Number]) -> NDArray[Number]:
     GL.glBindBuffer(GL.GL_COPY_READ_BUFFER, buffer)
     size = int(GL.glGetBufferParameteriv(GL.GL_COPY_READ_BUFFER, GL.GL_BUFFER_SIZE))
     values = np.empty(size // np.dtype(kind).itemsize, dtype=kind)
-    GL.glGetBufferSubData(GL.GL_COPY_READ_BUFFER, 0, size, values)
+    # As a mere address: PyOpenGL would take an array for bytes, and hand OpenGL a smaller copy.
+    GL.glGetBufferSubData(GL.GL_COPY_READ_BUFFER, 0, size, ctypes.c_void_p(values.ctypes.data))
     return values
 
 
