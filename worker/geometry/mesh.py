@@ -47,9 +47,9 @@ class Mesh:
     @property
     def size_bytes(self) -> int:
         """What the arrays occupy."""
-        floats = [self.positions, self.normals, *self.uv_sets]
-        floats += [array for array in (self.tangents, self.colors) if array is not None]
-        return self.triangles.nbytes + sum(array.nbytes for array in floats)
+        optional = [array for array in (self.tangents, self.colors) if array is not None]
+        arrays = (self.positions, self.normals, *self.uv_sets, *optional)
+        return self.triangles.nbytes + sum(array.nbytes for array in arrays)
 
 
 def join(meshes: list[Mesh]) -> Mesh:

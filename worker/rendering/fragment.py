@@ -12,9 +12,10 @@ _BY_OPACITY = {
 }
 
 
-def surface_sources(layout: ShadingLayout) -> tuple[Source, Source]:
-    """Return the vertex and the fragment source that draw a layout."""
-    return join(chunk("mesh.vert"), "mesh.vert"), join(_fragment(layout), layout.technique)
+def surface_sources(layout: ShadingLayout, *, layered: bool) -> tuple[Source, Source]:
+    """Return the vertex and the fragment source that draw a layout, with or without all layers."""
+    fragment = _fragment(layout, layered)
+    return join(chunk("mesh.vert"), "mesh.vert"), join(fragment, layout.technique)
 
 
 def background_sources(layout: ShadingLayout) -> tuple[Source, Source]:
@@ -33,10 +34,11 @@ def background_sources(layout: ShadingLayout) -> tuple[Source, Source]:
     return vertex, join("\n".join(lines), "background")
 
 
-def _fragment(layout: ShadingLayout) -> str:
+def _fragment(layout: ShadingLayout, layered: bool) -> str:
     parameters = [*layout.parameters, *([layout.opacity] if layout.opacity else [])]
     chunks = [f"surfaces/{layout.technique}.glsl"]
     chunks += ["lib/opacity.glsl"] if layout.opacity else []
+    chunks += ["lib/layers.glsl"] if layered else []
     lines = _head(layout, "lib/fragment.glsl", chunks)
     for parameter in parameters:
         lines += _declarations(parameter)
@@ -46,6 +48,8 @@ def _fragment(layout: ShadingLayout) -> str:
     if layout.opacity:
         lines.append(f"    float opacity = bounded({_value(layout.opacity)}, point.color.a);")
         lines.append(_BY_OPACITY[layout.alpha_mode])
+    if layered:
+        lines.append("    write_layers(point, albedo(surface), color.a);")
     return "\n".join([*lines, "}"])
 
 

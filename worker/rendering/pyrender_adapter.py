@@ -20,6 +20,7 @@ from worker.geometry.transforms import Matrix, rigid_inverse
 from worker.rendering.chunks import Source
 from worker.rendering.fragment import background_sources, surface_sources
 from worker.rendering.gl_context import GL, GLContext, check, floats
+from worker.rendering.layer_uniforms import LayerUniforms
 from worker.rendering.programs import Program, ProgramCache
 from worker.rendering.pyrender_scene import FlatScene, PlacedNode, SurfacePrimitive, View
 from worker.rendering.samplers import SamplerCache
@@ -87,6 +88,7 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         self._context = context
         self._programs = ProgramCache(_TraversedProgram)
         self._samplers = SamplerCache()
+        self._layers = LayerUniforms()
         self._frame: _Frame | None = None
         self._stream = 0  # a buffer of elements in another order
         self._no_vertices = 0
@@ -146,6 +148,7 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
     def _configure_forward_pass_viewport(self, flags: int) -> None:
         assert self._frame is not None
         GL.glBindFramebuffer(GL.GL_DRAW_FRAMEBUFFER, self._frame.target.framebuffer)
+        self._frame.target.write(averaged=True, nearest=True)
         GL.glViewport(0, 0, self.viewport_width, self.viewport_height)
         GL.glEnable(GL.GL_DEPTH_TEST)
         GL.glDepthMask(True)
@@ -173,8 +176,9 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
     def _get_primitive_program(
         self, primitive: SurfacePrimitive, flags: int, program_flags: int
     ) -> Program:
-        layout = primitive.material.shading.layout
-        return self._linked(layout, lambda: surface_sources(layout))
+        assert self._frame is not None
+        layout, layered = primitive.material.shading.layout, self._frame.target.layered
+        return self._linked((layout, layered), lambda: surface_sources(layout, layered=layered))
 
     def _bind_lighting(
         self, scene: FlatScene, program: _TraversedProgram, node: PlacedNode, flags: int
@@ -198,6 +202,10 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         program.set("normal_from_object", scene.normal_from_object[number])
         program.set("handedness", -1.0 if primitive.mirrored else 1.0)
         self._bind_surface(program, primitive.material.shading)
+        if self._frame.target.layered:
+            program.set("object_id", number + 1)
+            program.set("material_id", primitive.material.number)
+            self._layers.set(program, scene.world_from_camera, primitive.mesh)
         if primitive.material.shading.layout.alpha_mode == "blend" and not self._frame.blending:
             self._begin_blending()
         start = time.perf_counter()
@@ -225,6 +233,7 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         """Let colours, premultiplied, lie over what is there; depth is asked but not changed."""
         assert self._frame is not None
         self._frame.blending = True
+        self._frame.target.write(averaged=True, nearest=False)
         GL.glDepthMask(False)
         GL.glEnable(GL.GL_BLEND)
         GL.glBlendFunc(GL.GL_ONE, GL.GL_ONE_MINUS_SRC_ALPHA)
@@ -240,12 +249,14 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         self._bind_surface(program, shading)
         start = time.perf_counter()
         self._no_vertices = self._no_vertices or int(GL.glGenVertexArrays(1))
+        self._frame.target.write(averaged=False, nearest=False)
         GL.glDisable(GL.GL_DEPTH_TEST)  # nor is any depth written then
         GL.glDisable(GL.GL_CULL_FACE)
         GL.glBindVertexArray(self._no_vertices)
         GL.glDrawArrays(GL.GL_TRIANGLES, 0, 3)
         GL.glBindVertexArray(0)
         GL.glEnable(GL.GL_DEPTH_TEST)
+        self._frame.target.write(averaged=True, nearest=True)
         self._drawn(program, start)
 
     def _linked(
@@ -280,11 +291,13 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         """Free what exceeds the bounds; call it when nothing is being drawn."""
         self._programs.trim()
         self._samplers.trim()
+        self._layers.trim()
 
     def delete(self) -> None:
         """Free programs, samplers and buffers."""
         self._programs.delete()
         self._samplers.delete()
+        self._layers.trim()
         GL.glDeleteBuffers(1, [self._stream])
         GL.glDeleteVertexArrays(1, [self._no_vertices])
         self._stream = self._no_vertices = 0

@@ -34,11 +34,12 @@ class View:
 
 @dataclass(frozen=True, slots=True)
 class Drawable:
-    """A mesh in OpenGL, a surface, and where they stand."""
+    """A mesh in OpenGL, a surface, where they stand, and the number of the surface from 1."""
 
     mesh: VertexArray
     shading: Shading
     world_from_object: Matrix
+    material: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,10 +53,11 @@ class Background:
 class SurfaceMaterial(pyrender.Material):  # type: ignore[misc]
     """Carries a shading through pyrender's traversal. Textures are ours to upload and to free."""
 
-    def __init__(self, shading: Shading) -> None:
-        """Make a material of a shading."""
+    def __init__(self, shading: Shading, number: int) -> None:
+        """Make a material of a shading; `number` is its material id."""
         super().__init__(doubleSided=shading.double_sided)
         self.shading = shading
+        self.number = number
 
     @property
     def textures(self) -> set[Any]:
@@ -79,7 +81,8 @@ class SurfacePrimitive(pyrender.Primitive):  # type: ignore[misc]
 
     def __init__(self, drawable: Drawable, number: int, view: View, *, mirrored: bool) -> None:
         """Take what is drawn; pyrender itself learns of no vertices."""
-        super().__init__(positions=_NO_VERTICES, material=SurfaceMaterial(drawable.shading))
+        material = SurfaceMaterial(drawable.shading, drawable.material)
+        super().__init__(positions=_NO_VERTICES, material=material)
         self.mesh = drawable.mesh
         self.number = number
         self.mirrored = mirrored
@@ -128,6 +131,7 @@ class FlatScene(pyrender.Scene):  # type: ignore[misc]
 
     Attributes:
         background: What is behind everything.
+        world_from_camera: The eye's frame.
         in_order: Its nodes as they are drawn.
         world_from_object: (n, 4, 4), by the number of the drawable.
         eye_from_object: float32 (n, 4, 4), axes of the world and origin at the eye.
@@ -140,6 +144,7 @@ class FlatScene(pyrender.Scene):  # type: ignore[misc]
         """Put drawables and the eye into a scene of pyrender's."""
         super().__init__(bg_color=np.zeros(4), ambient_light=np.zeros(3))
         self.background = background
+        self.world_from_camera = view.world_from_camera
         camera = MatrixCamera(view.clip_from_camera)
         self.add_node(PlacedNode(view.world_from_camera, camera=camera))
         matrices = np.array([drawable.world_from_object for drawable in drawables])

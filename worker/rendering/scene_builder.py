@@ -21,7 +21,7 @@ from worker.geometry.transforms import Matrix, parent_from_node
 from worker.images.image import Image
 from worker.images.pyramids import mip_chain
 from worker.rendering.cache import ByteCache
-from worker.rendering.model_changes import surface_of
+from worker.rendering.model_changes import seen_parts
 from worker.rendering.pyrender_scene import Background, Drawable, View
 from worker.rendering.shading import Shading, shade
 from worker.rendering.staging import PlacedModel, lights_of, view_of
@@ -107,10 +107,13 @@ class SceneBuilder:
                 make = partial(primitives.build, node.mesh)
                 placed.append(_Placed(key, make, node.surface or _MATT_GREY, matrix))
         kept = [self._kept(item) for item in placed]
-        drawables = [
-            Drawable(mesh, self._shading(item.surface, maker), item.world_from_object)
-            for item, mesh in zip(placed, kept, strict=True)
-        ]
+        worn: dict[str, tuple[Shading, int]] = {}
+        drawables = []
+        for item, mesh in zip(placed, kept, strict=True):
+            key = item.surface.model_dump_json()
+            if key not in worn:
+                worn[key] = self._shading(item.surface, maker), len(worn) + 1
+            drawables.append(Drawable(mesh, worn[key][0], item.world_from_object, worn[key][1]))
         vertices = (
             (mesh.positions, item.world_from_object)
             for item, mesh in zip(placed, kept, strict=True)
@@ -178,7 +181,7 @@ def _parts(
     mesh: ModelMesh, surface: SurfaceSpec | None, model: Model, matrix: Matrix
 ) -> Iterator[_Placed]:
     beside = "".join(f"{name} {asset} " for name, asset in sorted(mesh.files.items()))
-    for part, worn in surface_of(mesh, model):
+    for part, worn in seen_parts(mesh, model):
         yield _Placed(
             key=f"{mesh.asset} {beside}{part.key}",
             mesh=partial(_mesh_of, part),

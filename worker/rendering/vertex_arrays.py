@@ -97,6 +97,13 @@ class VertexArray:
         """Whether it has an inner and an outer side; lines and points have none."""
         return bool(self.mode == GL.GL_TRIANGLES)
 
+    def face_normals(self) -> NDArray[np.float32]:
+        """Give the unit normal of each triangle in the object's frame, (m, 3); 0 without area."""
+        corners = self.positions[self.elements].astype(np.float64)
+        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+        return floats(np.divide(normals, lengths, out=normals, where=lengths > 0))
+
     def bind(self) -> None:
         """Make it what is drawn."""
         GL.glBindVertexArray(self.number)

@@ -1,9 +1,8 @@
 """A small studio: pictures as textures, scenes as dictionaries, pixels back."""
 
 import hashlib
-import itertools
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -16,7 +15,6 @@ from worker.geometry.model import Model, Part
 from worker.images.image import Image
 
 Pixels = NDArray[np.float32]
-_MESHES = itertools.count()  # the renderer keeps meshes by name, from one studio to the next
 
 
 class Studio:
@@ -43,9 +41,15 @@ class Studio:
         return self._arrays[texture["asset"]]
 
     def mesh(self, mesh: Mesh) -> dict[str, Any]:
-        """Make a mesh spec of vertices: a model that is one part and nothing else."""
-        name = hashlib.sha256(f"vertices {next(_MESHES)}".encode()).hexdigest()
-        part = Part(mesh, np.eye(4), node=None, material=None, key="")
+        """Make a mesh spec of vertices."""
+        arrays = (mesh.positions, mesh.normals, *mesh.uv_sets, mesh.triangles)
+        more = (mesh.tangents, mesh.colors)
+        name = hashlib.sha256(
+            b"".join(repr(a.shape).encode() + a.tobytes() for a in arrays)
+            + b"".join(b"-" if a is None else a.tobytes() for a in more)
+            + mesh.kind.encode()
+        ).hexdigest()
+        part = Part(mesh, np.eye(4), None, None, "")
         self.models[name] = Model((part,), (), (), (), (), {}, ())
         return {"type": "model", "asset": name}
 
@@ -53,15 +57,26 @@ class Studio:
         self, scene: dict[str, Any], size: tuple[int, int] = (32, 32), supersampling: int = 1
     ) -> Pixels:
         """Draw a scene given as JSON; float32 (height, width, 4)."""
+        return self.layers(scene, [], size, supersampling)["picture"]
+
+    def layers(
+        self,
+        scene: dict[str, Any],
+        names: Sequence[str],
+        size: tuple[int, int] = (32, 32),
+        supersampling: int = 1,
+    ) -> dict[str, Pixels]:
+        """Draw a scene with some layers; float32 (height, width, channels), by name."""
         rendering = self._render(
             Scene.model_validate_json(json.dumps(scene)),
-            RenderOutput(size=list(size), supersampling=supersampling),
+            RenderOutput(size=list(size), supersampling=supersampling, layers=list(names)),
             lambda spec, meaning: Image(self._arrays[spec.asset], meaning),
             lambda mesh: self.models[mesh.asset],
             lambda fraction, stage: self.reports.append((fraction, stage)),
         )
+        bands = list(rendering.bands)
         self.facts = rendering.timings | rendering.counts
-        return rendering.image.pixels
+        return {name: np.concatenate([band[name].pixels for band in bands]) for name in bands[0]}
 
     def poster(
         self, surface: dict[str, Any], size: tuple[int, int] = (32, 32), **more: Any
