@@ -42,7 +42,12 @@ def _fragment(layout: ShadingLayout, layered: bool) -> str:
     lines = _head(layout, "lib/fragment.glsl", chunks)
     for parameter in parameters:
         lines += _declarations(parameter)
-    lines += [*_begin_main(layout, "surface_point"), "    Surface surface;"]
+    if layout.normal is not None:
+        lines += ["uniform vec2 normal_range;", "uniform vec4 normal_axes;"]
+    lines += _begin_main(layout, "surface_point")
+    if layout.normal is not None:
+        lines += _tilt(layout.normal)
+    lines.append("    Surface surface;")
     lines += [f"    surface.{p.name} = {_value(p)};" for p in layout.parameters]
     lines.append("    color = holdable(shade(point, surface));")
     if layout.opacity:
@@ -62,6 +67,8 @@ def _head(layout: ShadingLayout, base: str, more: Sequence[str]) -> list[str]:
         *(f"coordinates/{lookup.coordinates}.glsl" for lookup in lookups),
         *(f"lib/sample_{lookup.filter}.glsl" for lookup in lookups),
     ]
+    if layout.normal is not None:
+        chunks.append("lib/normal_map.glsl")
     lines = [VERSION, *(f'#include "{name}"' for name in dict.fromkeys(chunks))]
     if lookups:
         lines += [
@@ -87,6 +94,14 @@ def _begin_main(layout: ShadingLayout, point: str) -> list[str]:
 
 def _coordinates(lookup: LookupLayout) -> str:
     return f"coordinates_{lookup.coordinates}({', '.join(['point', *map(str, lookup.choices)])})"
+
+
+def _tilt(lookup: int) -> list[str]:
+    return [
+        f"    vec3 tilt = normal_range.x * texel_{lookup}.xyz + normal_range.y;",
+        "    tilt.xy = vec2(dot(normal_axes.xy, tilt.xy), dot(normal_axes.zw, tilt.xy));",
+        "    point.normal = tilted_normal(point, vertex_normal, tilt);",
+    ]
 
 
 def _declarations(parameter: Parameter) -> list[str]:

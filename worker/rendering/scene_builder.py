@@ -17,13 +17,14 @@ from api_schemas.surfaces.unlit import UnlitSpec
 from worker.geometry import primitives
 from worker.geometry.mesh import Mesh
 from worker.geometry.model import Model, Part
+from worker.geometry.tangents import with_tangents
 from worker.geometry.transforms import Matrix, parent_from_node
 from worker.images.image import Image
 from worker.images.pyramids import mip_chain
 from worker.rendering.cache import ByteCache
 from worker.rendering.model_changes import seen_parts
 from worker.rendering.pyrender_scene import Background, Drawable, View
-from worker.rendering.shading import Shading, shade
+from worker.rendering.shading import Shading, shade, tangent_uv_set
 from worker.rendering.staging import PlacedModel, lights_of, view_of
 from worker.rendering.textures import Texture
 from worker.rendering.vertex_arrays import VertexArray
@@ -146,11 +147,16 @@ class SceneBuilder:
         self._meshes.trim()
 
     def _kept(self, item: _Placed) -> VertexArray:
-        def make() -> tuple[VertexArray, int]:
-            mesh = VertexArray.upload(item.mesh())
-            return mesh, mesh.size_bytes
+        uv_set = tangent_uv_set(item.surface)
 
-        return self._meshes.get(item.key, make)
+        def make() -> tuple[VertexArray, int]:
+            mesh = item.mesh()
+            if uv_set is not None:
+                mesh = with_tangents(mesh, uv_set)
+            uploaded = VertexArray.upload(mesh)
+            return uploaded, uploaded.size_bytes
+
+        return self._meshes.get((item.key, uv_set), make)
 
     def _shading(self, surface: SurfaceSpec, maker: TextureMaker) -> Shading:
         def texture_of(spec: TextureSpec, meaning: Meaning, *, levels: bool) -> Texture:

@@ -70,7 +70,9 @@ def test_without_any_camera_all_is_framed() -> None:
     found = view(None, [placed(model(), IDENTITY)])
 
     assert not found.orthographic
-    assert found.world_from_camera[:3, 2] == pytest.approx(np.array([0.5, 0.4, 1]) / np.sqrt(1.41), abs=1e-6)
+    assert found.world_from_camera[:3, 2] == pytest.approx(
+        np.array([0.5, 0.4, 1]) / np.sqrt(1.41), abs=1e-6
+    )
 
 
 @pytest.mark.parametrize("name", ["front", 1])
