@@ -1,5 +1,6 @@
 """Cut a picture into bands of tiles that fit a bounded framebuffer."""
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -27,11 +28,12 @@ class Tile:
 def tile_size(width: int, height: int, supersampling: int, samples_max: int) -> tuple[int, int]:
     """Return width and height in pixels of the tiles of a picture of so many pixels.
 
-    Tiles are as wide as a framebuffer may be, so that few of them make the rows of a band. Their
-    sides are those of the picture or even, so that no 2 x 2 block of derivatives is cut.
+    Tiles are about as wide as a framebuffer may be, so that few of them make the rows of a band.
+    Their sides are those of the picture or even, so that no 2 x 2 block of derivatives is cut.
     """
-    side = SIDE_MAX // supersampling
-    tile_width = min(width, side // 2 * 2)
+    side = SIDE_MAX // supersampling // 2 * 2
+    columns = math.ceil(width / side)
+    tile_width = min(width, math.ceil(width / columns / 2) * 2)
     rows = min(side, samples_max // (tile_width * supersampling**2))
     return tile_width, min(height, max(2, rows // 2 * 2))
 

@@ -3,6 +3,8 @@ import itertools
 import numpy as np
 import pytest
 
+from api_schemas.output import Layer, RenderOutput
+from api_schemas.output_cost import SAMPLES_PER_LAYERED_TILE, SAMPLES_PER_TILE, tiles_of
 from worker.rendering.tiles import (
     LAYERED_SAMPLES_MAX,
     SAMPLES_MAX,
@@ -45,6 +47,22 @@ def test_a_tile_fits_a_framebuffer_and_the_memory(
     assert width * height * supersampling**2 <= most
     for side, whole in ((width, picture[0]), (height, picture[1])):
         assert side == whole or side * supersampling % 2 == 0  # no block of derivatives is cut
+
+
+@pytest.mark.parametrize(("picture", "supersampling", "most"), CUTS)
+def test_the_estimate_knows_the_number_of_tiles(
+    picture: tuple[int, int], supersampling: int, most: int
+) -> None:
+    size = tile_size(*picture, supersampling, most)
+    count = sum(len(tiles) for tiles in bands(*picture, size))
+    layers: list[Layer] = ["depth"] if most == LAYERED_SAMPLES_MAX else []
+    output = RenderOutput(size=list(picture), supersampling=supersampling, layers=layers)
+
+    assert 0.75 * count <= tiles_of(output) <= count
+
+
+def test_the_estimate_knows_the_largest_tile() -> None:
+    assert (SAMPLES_PER_TILE, SAMPLES_PER_LAYERED_TILE) == (SAMPLES_MAX, LAYERED_SAMPLES_MAX)
 
 
 def test_what_fits_one_tile_is_one_tile() -> None:
