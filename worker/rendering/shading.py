@@ -3,6 +3,7 @@
 The layout decides the program; numbers, transforms and channels are uniforms and do not.
 """
 
+import functools
 import json
 import math
 import re
@@ -13,7 +14,7 @@ from typing import Any, Protocol, get_args
 import numpy as np
 
 from api_schemas.coordinates.uv import UvSpec
-from api_schemas.families import Meaning, SurfaceSpec, TextureSpec
+from api_schemas.families import AlphaMode, Meaning, SurfaceSpec, TextureSpec
 from api_schemas.maps import ColorMap, Filter, Map, NormalMap, NumberMap, TextureTransform
 from worker.errors import RenderError
 from worker.rendering.chunks import chunk
@@ -73,6 +74,8 @@ class ShadingLayout:
     Attributes:
         technique: The surface's.
         parameters: In the order of its struct.
+        alpha_mode: Whether opacity is ignored, cuts holes, or lets through what is behind.
+        opacity: How it is read, unless it is ignored.
         normal: The lookup that tilts the normal, if there is a normal map.
         lookups: Readings of pictures.
         pictures: Texture units.
@@ -80,6 +83,8 @@ class ShadingLayout:
 
     technique: str
     parameters: tuple[Parameter, ...]
+    alpha_mode: AlphaMode
+    opacity: Parameter | None
     normal: int | None
     lookups: tuple[LookupLayout, ...]
     pictures: tuple[PictureLayout, ...]
@@ -96,13 +101,15 @@ class Picture:
 
 @dataclass(frozen=True, slots=True)
 class Shading:
-    """A surface ready to draw."""
+    """A surface ready to draw; `double_sided` says whether its inner side is drawn too."""
 
     layout: ShadingLayout
     uniforms: dict[str, Any]
     pictures: tuple[Picture, ...]
+    double_sided: bool
 
 
+@functools.cache
 def surface_fields(technique: str) -> dict[str, str]:
     """Return name and GLSL type of each field in the technique's struct Surface.
 
@@ -126,18 +133,21 @@ def shade(surface: SurfaceSpec, texture_of: TextureSource) -> Shading:
         plan.parameter(surface, name, kind)
         for name, kind in surface_fields(surface.technique).items()
     )
+    opacity = plan.opacity(surface)
     normal = None if surface.normal is None else plan.normal(surface.normal)
     pictures = tuple(plan.pictures)
     layout = ShadingLayout(
         technique=surface.technique,
         parameters=parameters,
+        alpha_mode=surface.alpha_mode,
+        opacity=opacity,
         normal=normal,
         lookups=tuple(lookup.layout for lookup in plan.lookups),
         pictures=tuple(
             PictureLayout(picture.sampling, picture.texture.format) for picture in pictures
         ),
     )
-    return Shading(layout, plan.all_uniforms(), pictures)
+    return Shading(layout, plan.all_uniforms(), pictures, surface.double_sided)
 
 
 def tangent_uv_set(surface: SurfaceSpec) -> int | None:
@@ -176,6 +186,14 @@ class _Plan:
         else:
             self._uniforms[name + "_scale"] = value.scale * np.array(value.tint)
         return Parameter(name, kind, self._lookup(value, _MEANINGS[kind]))
+
+    def opacity(self, surface: SurfaceSpec) -> Parameter | None:
+        """Lay out the opacity, unless it is ignored."""
+        if surface.alpha_mode == "opaque":
+            return None
+        if surface.alpha_mode == "mask":
+            self._uniforms["alpha_cutoff"] = surface.alpha_cutoff
+        return self.parameter(surface, "opacity", "float")
 
     def normal(self, mapped: NormalMap) -> int:
         """Lay out a normal map; return its lookup."""
