@@ -123,8 +123,8 @@ def needed_files(document: Document) -> tuple[str, ...]:
 
 
 def _check_data_uris(document: Document) -> None:
-    uris = [item.uri for item in (*document.buffers, *document.images) if item.uri is not None]
-    total = sum(len(uri) for uri in uris if is_data(uri))
+    uris = [item.uri for item in document.buffers] + [item.uri for item in document.images]
+    total = sum(len(uri) for uri in uris if uri is not None and is_data(uri))
     if total > DATA_URI_BYTES_MAX:
         raise too_large(
             "/buffers",

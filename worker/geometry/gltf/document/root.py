@@ -47,22 +47,22 @@ class Document(GltfObject):
     """All of a glTF file's JSON that matters to a picture at rest."""
 
     asset: Asset
-    extensions_used: Words = []
-    extensions_required: Words = []
-    accessors: Annotated[list[Accessor], Field(min_length=1)] = []
-    animations: Annotated[list[dict[str, Any]], Field(min_length=1)] = []
-    buffers: Annotated[list[Buffer], Field(min_length=1)] = []
-    buffer_views: Annotated[list[BufferView], Field(min_length=1)] = []
-    cameras: Annotated[list[Camera], Field(min_length=1)] = []
-    images: Annotated[list[Image], Field(min_length=1)] = []
-    materials: Annotated[list[Material], Field(min_length=1)] = []
-    meshes: Annotated[list[Mesh], Field(min_length=1)] = []
-    nodes: Annotated[list[Node], Field(min_length=1)] = []
-    samplers: Annotated[list[Sampler], Field(min_length=1)] = []
+    extensions_used: Words = Field(default=[])
+    extensions_required: Words = Field(default=[])
+    accessors: list[Accessor] = Field(default=[], min_length=1)
+    animations: list[dict[str, Any]] = Field(default=[], min_length=1)
+    buffers: list[Buffer] = Field(default=[], min_length=1)
+    buffer_views: list[BufferView] = Field(default=[], min_length=1)
+    cameras: list[Camera] = Field(default=[], min_length=1)
+    images: list[Image] = Field(default=[], min_length=1)
+    materials: list[Material] = Field(default=[], min_length=1)
+    meshes: list[Mesh] = Field(default=[], min_length=1)
+    nodes: list[Node] = Field(default=[], min_length=1)
+    samplers: list[Sampler] = Field(default=[], min_length=1)
     scene: Index | None = None
-    scenes: Annotated[list[Scene], Field(min_length=1)] = []
-    skins: Annotated[list[Skin], Field(min_length=1)] = []
-    textures: Annotated[list[Texture], Field(min_length=1)] = []
+    scenes: list[Scene] = Field(default=[], min_length=1)
+    skins: list[Skin] = Field(default=[], min_length=1)
+    textures: list[Texture] = Field(default=[], min_length=1)
     extensions: DocumentExtensions = DocumentExtensions()
 
     @model_validator(mode="after")
