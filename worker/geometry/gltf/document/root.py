@@ -4,6 +4,7 @@ import re
 from typing import Annotated, Any, Self
 
 from pydantic import Field, ValidationError, model_validator
+from pydantic.alias_generators import to_camel
 
 from worker.errors import UnusableAssetError
 from worker.geometry.gltf.document.base import GltfObject, Index, Words
@@ -12,7 +13,8 @@ from worker.geometry.gltf.document.materials import Material
 from worker.geometry.gltf.document.meshes import Mesh, Skin
 from worker.geometry.gltf.document.pictures import Image, Sampler, Texture
 from worker.geometry.gltf.document.scene import Camera, Lights, Node, Scene
-from worker.geometry.gltf.faults import spoken, unusable
+from worker.geometry.gltf.faults import spoken, too_large, unusable
+from worker.geometry.gltf.limits import ITEMS_MAX, NODES_MAX
 
 _VERSION = re.compile(r"([0-9]{1,6})\.([0-9]{1,6})")
 
@@ -76,8 +78,14 @@ def read_document(value: dict[str, Any]) -> Document:
     """Validate a document's types, ranges and shapes.
 
     Raises:
-        UnusableAssetError: `asset_unusable`, with the place of the first mistake.
+        UnusableAssetError: `asset_unusable`, with the place of the first mistake; `asset_too_large`
+            for too many things of one kind.
     """
+    for name in Document.model_fields:
+        items = value.get(to_camel(name))
+        most = NODES_MAX if name == "nodes" else ITEMS_MAX
+        if isinstance(items, list) and len(items) > most:
+            raise too_large(f"/{to_camel(name)}", f"{len(items)} items; at most {most} are taken")
     try:
         return Document.model_validate(value)
     except ValidationError as error:
