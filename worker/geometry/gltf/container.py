@@ -28,11 +28,6 @@ class Container:
     warnings: tuple[str, ...] = ()
 
 
-def is_gltf(data: bytes) -> bool:
-    """Whether a file can be glTF at all: a GLB, or text that begins as a JSON object does."""
-    return data.startswith(MAGIC) or data[:64].lstrip(b" \t\r\n").startswith(b"{")
-
-
 def open_container(data: bytes) -> Container:
     """Take a GLB apart; any other file is JSON as a whole.
 

@@ -5,13 +5,15 @@ import json
 import time
 import tracemalloc
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from worker.errors import WorkerError
-from worker.geometry.gltf.reader import needed_files, read
+from worker.geometry.gltf.outline import outline
+from worker.geometry.gltf.reader import read
 from worker.geometry.model import Model
 
 CODES = {"asset_unusable", "asset_unsupported", "asset_too_large", "asset_file_missing"}
@@ -111,10 +113,15 @@ def test_the_milk_truck_has_its_wheels_twice_and_once_in_memory(corpus: Path) ->
 
 
 @pytest.mark.corpus
-def test_the_names_of_files_beside_an_asset_are_told(corpus: Path) -> None:
-    box = corpus / "1_models/khronos/BoxTextured-separate/BoxTextured.gltf"
+def test_a_file_alone_tells_what_it_tells_with_those_beside_it(corpus: Path) -> None:
+    khronos = corpus / "1_models/khronos"
+    alone = outline((khronos / "BoxTextured-separate/BoxTextured.gltf").read_bytes())
+    whole = outline((khronos / "BoxTextured-embedded/BoxTextured.gltf").read_bytes())
 
-    assert needed_files(box.read_bytes()) == ("BoxTextured0.bin", "CesiumLogoFlat.png")
+    assert alone.files == ("BoxTextured0.bin", "CesiumLogoFlat.png")
+    assert whole.files == ()
+    assert len(whole.pictures) == 1
+    assert alone == replace(whole, files=alone.files, pictures=())
 
 
 @pytest.mark.corpus

@@ -9,7 +9,8 @@ import pytest
 
 from tests.worker.geometry.gltf.building import Builder, data_uri, glb, png, shown
 from worker.errors import AssetMissingError, UnusableAssetError, WorkerError
-from worker.geometry.gltf.reader import needed_files, read
+from worker.geometry.gltf.outline import outline
+from worker.geometry.gltf.reader import read
 from worker.geometry.model import Model
 
 JPEG = bytes.fromhex("ffd8ffe000104a46494600010100000100010000ffc0000b08000200030101110000ffd9")
@@ -133,7 +134,7 @@ def test_names_are_looked_up_as_they_decode_and_nothing_else_is(uri: str, name: 
 
     assert len(read(text, files).parts) == 1
     assert files.asked == {name}
-    assert needed_files(text) == (name,)
+    assert outline(text).files == (name,)
 
 
 def test_a_file_that_is_not_in_the_set_is_named() -> None:

@@ -62,7 +62,10 @@ Indices = Annotated[list[Index], Field(min_length=1), AfterValidator(_unlike)]
 Words = Annotated[list[str], Field(min_length=1), AfterValidator(_unlike)]
 
 
-class Named(GltfObject):
-    """An object with a name for people, empty if it has none."""
+NAME_LENGTH_MAX = 256
 
-    name: str = ""
+
+class Named(GltfObject):
+    """An object with a name for people, empty if it has none; more than 256 letters are cut."""
+
+    name: Annotated[str, AfterValidator(lambda name: name[:NAME_LENGTH_MAX])] = ""
