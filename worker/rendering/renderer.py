@@ -21,7 +21,8 @@ from worker.images.image import Image
 from worker.rendering.gl_context import GLContext, check
 from worker.rendering.lighting import light_uniforms
 from worker.rendering.packing import PICTURE, PLACES
-from worker.rendering.pyrender_adapter import FloatRenderer, pyrender_scene
+from worker.rendering.pyrender_adapter import FloatRenderer
+from worker.rendering.pyrender_scene import FlatScene
 from worker.rendering.scene_builder import BuiltScene, ModelReader, SceneBuilder, TextureMaker
 from worker.rendering.shading import surface_fields
 from worker.rendering.targets import Target, TargetPair
@@ -131,7 +132,7 @@ def _bands(
     most = LAYERED_SAMPLES_MAX if layered else SAMPLES_MAX
     size = tile_size(width, height, supersampling, most)
     target = engine.targets.fit(*size, supersampling, layered=layered)
-    scene = pyrender_scene(built.drawables, built.view)
+    scene = FlatScene(built.drawables, built.view, built.background)
     spent, jit_before = 0.0, engine.renderer.jit_seconds
     for tiles in bands(width, height, size):
         start = time.perf_counter()
