@@ -56,7 +56,7 @@ class Textures:
         picture = self._picture(info)
         if info is None or picture is None:
             return scale + bias
-        image = _image(picture, "srgb" if channel == "a" else "linear")
+        image = _image(picture, "linear", "use" if channel == "a" else "ignore")
         return NumberMap(
             texture=image, channel=channel, scale=scale, bias=bias, **self._shared(info)
         )
@@ -103,8 +103,12 @@ class Textures:
         return "bilinear" if sampler.min_filter in (_NEAREST, _LINEAR) else "anisotropic"
 
 
-def _image(picture: Picture, encoding: Literal["srgb", "linear"]) -> ImageSpec:
-    return ImageSpec(technique="image", asset=picture.sha256, encoding=encoding, alpha="ignore")
+def _image(
+    picture: Picture,
+    encoding: Literal["srgb", "linear"],
+    alpha: Literal["use", "ignore"] = "ignore",
+) -> ImageSpec:
+    return ImageSpec(technique="image", asset=picture.sha256, encoding=encoding, alpha=alpha)
 
 
 def _transform(transform: document.TextureTransform | None) -> TextureTransform:
