@@ -1,17 +1,21 @@
 """Opacity: what is cut, what lets light through, and in which order."""
 
 import itertools
+from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
 from api_schemas import meshes
+from tests.run_example import run_example
 from tests.worker.rendering.studio import Studio
 from worker.geometry import primitives
 from worker.geometry.mesh import Mesh
 from worker.geometry.plane import plane
+from worker.images import image_io
 
 pytestmark = pytest.mark.gl
 
@@ -292,3 +296,14 @@ def test_blended_pictures_in_tiles_are_the_picture(
     error = np.abs(cut - whole).max(axis=2)
     assert np.median(error) < 1e-6
     assert (error > 1e-3).mean() < 0.01  # samples on an edge, as in an opaque picture
+
+
+@pytest.mark.golden
+def test_the_window_looks_as_it_did(
+    compare_with_golden: Callable[..., None], tmp_path: Path
+) -> None:
+    path = tmp_path / "picture.exr"
+
+    run_example("window", path, tmp_path / "assets", size=[64, 48], format="exr", exr_type="float")
+
+    compare_with_golden(image_io.read(path, "linear", "colour"), "window/example")
