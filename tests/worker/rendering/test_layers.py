@@ -5,6 +5,7 @@ from typing import Any, get_args
 import numpy as np
 import pytest
 
+from api_schemas.language import FAMILIES
 from api_schemas.output import Layer
 from tests.worker.rendering.studio import Studio
 from tests.worker.rendering.test_renderer import still_life
@@ -118,6 +119,7 @@ def test_a_tilted_plane(studio: Studio) -> None:
         ("depth", depth[..., None]),
         ("position", place),
         ("normal", np.broadcast_to(normal, place.shape)),
+        ("tangent", np.broadcast_to(a / np.linalg.norm(a), place.shape)),
         ("geometric_normal", np.broadcast_to(normal, place.shape)),
         ("uv", uv),
     ):
@@ -160,6 +162,10 @@ def test_a_ball(studio: Studio) -> None:
     clear = inside & ~poles & (np.abs(longitude - 0.5) < 0.49)
     np.testing.assert_allclose(drawn["uv"][clear][:, 1], latitude[clear], atol=1e-5)
     np.testing.assert_allclose(drawn["uv"][clear][:, 0], longitude[clear], atol=1e-5)
+    east = np.stack([place[..., 2], 0 * depth, -place[..., 0]], axis=2)
+    east /= np.linalg.norm(east, axis=2, keepdims=True)
+    off = np.linalg.norm(drawn["tangent"] - east, axis=2)
+    assert off[inside & ~poles].max() < np.pi / 700  # the mean of the facets round a vertex
 
 
 @pytest.mark.parametrize("scale", [[1, 1, 1], [-1, 1, 1], [1e-3, 1e-3, 1e-3]])
@@ -358,6 +364,74 @@ def test_layers_in_tiles_are_the_layers(studio: Studio, monkeypatch: pytest.Monk
     for name in ("depth", "position", "uv", "normal"):
         error = np.abs(cut[name] - whole[name])[same].max(axis=1)
         assert np.quantile(error, 0.95) < 2e-4, name
+
+
+@pytest.mark.parametrize("technique", FAMILIES["surfaces"])
+def test_every_surface_has_layers(studio: Studio, technique: str) -> None:
+    scene = {
+        "camera": STRAIGHT,
+        "nodes": [{"mesh": {"type": "plane"}, "surface": {"technique": technique}}],
+    }
+
+    drawn = studio.layers(scene, ALL)
+
+    assert (drawn["object_id"] == 1).all()
+    assert (drawn["albedo"][..., :3] > 0.1).all()
+    assert (drawn["tangent"] == [1, 0, 0]).all()
+
+
+def test_what_is_blended_tints_the_albedo_and_leaves_the_rest_to_what_is_behind(
+    studio: Studio,
+) -> None:
+    glass = {
+        "surface": {
+            "technique": "unlit",
+            "color": [1.0, 0.0, 0.0],
+            "alpha_mode": "blend",
+            "opacity": 0.25,
+        }
+    }
+    wall = sheet(-1.0, 0.0, 0.0, **unlit(0.0, 1.0, 0.5))
+    pane = sheet(-1.0, 1.0, 1.0, **glass)
+
+    with_pane = studio.layers({"camera": STRAIGHT, "nodes": [pane, wall]}, ALL, (2, 2), 2)
+    without = studio.layers({"camera": STRAIGHT, "nodes": [{}, wall]}, ALL, (2, 2), 2)
+
+    assert with_pane["albedo"][0].tolist() == [[0.25, 0.75, 0.375, 1], [0.25, 0, 0, 0.25]]
+    assert with_pane["picture"][0].tolist() == with_pane["albedo"][0].tolist()
+    assert with_pane["coverage"][0, :, 0].tolist() == [1, 0.25]
+    assert with_pane["object_id"][0, :, 0].tolist() == [2, 0]
+    assert with_pane["depth"][0, :, 0].tolist() == [5, np.float32(NOWHERE)]
+    for name in ("position", "normal", "geometric_normal", "tangent", "uv"):
+        np.testing.assert_array_equal(with_pane[name], without[name])
+
+
+def test_a_background_is_no_thing(studio: Studio) -> None:
+    texture = studio.texture(np.full((2, 2, 3), 0.5))
+    for background in ([0.5, 0.5, 0.5], {"texture": texture}):
+        scene = {
+            "camera": STRAIGHT,
+            "background": background,
+            "nodes": [sheet(-1.0, 0.0, 0.0, **unlit(0.0, 1.0, 0.0))],
+        }
+
+        drawn = studio.layers(scene, ALL, (2, 2), 2)
+
+        assert drawn["picture"][0].tolist() == [[0, 1, 0, 1], [0.5, 0.5, 0.5, 1]]
+        assert drawn["coverage"][0, :, 0].tolist() == [1, 0]
+        assert drawn["albedo"][0].tolist() == [[0, 1, 0, 1], [0, 0, 0, 0]]
+        assert drawn["object_id"][0, :, 0].tolist() == [1, 0]
+
+
+def test_a_hole_shows_what_is_behind_it(studio: Studio) -> None:
+    holes = {"texture": studio.texture([[1.0, 0.0]]), "filter": "nearest"}
+    net = {"technique": "unlit", "alpha_mode": "mask", "opacity": holes}
+    nodes = [sheet(-1.0, 1.0, 1.0, surface=net), sheet(-1.0, 1.0, 0.0, **unlit(0, 0, 1))]
+
+    drawn = studio.layers({"camera": STRAIGHT, "nodes": nodes}, ALL, (2, 2), 2)
+
+    assert drawn["object_id"][0, :, 0].tolist() == [1, 2]
+    assert drawn["depth"][0, :, 0].tolist() == [4, 5]
 
 
 @pytest.mark.parametrize(
