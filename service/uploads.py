@@ -2,7 +2,8 @@
 
 import hashlib
 from collections.abc import AsyncGenerator, AsyncIterator, Iterator
-from contextlib import contextmanager
+from contextlib import asynccontextmanager, contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
@@ -20,27 +21,39 @@ from worker.jobs.errors import MeasuringError
 
 FORM: Final = "multipart/form-data"
 FIELD: Final = "file"
+FAMILIES: Final = ("image/", "model/")
+BUFFER: Final = "application/gltf-buffer"
+UNTOLD: Final = ("", "application/octet-stream")
 PIECE: Final = 1 << 18
 
 
-async def upload(request: Request, limit: int) -> AsyncIterator[bytes]:
-    """Yield the bytes of the file that a request carries, bare or as the one field of a form.
+@dataclass(frozen=True, slots=True)
+class Upload:
+    """A file on its way in; `media_type` is what the caller calls it, empty without a word."""
+
+    media_type: str
+    content: AsyncIterator[bytes]
+
+
+@asynccontextmanager
+async def upload(request: Request, limit: int) -> AsyncIterator[Upload]:
+    """Open the file that a request carries, bare or as the one field of a form.
 
     Raises:
         ProblemError: It carries none, or one that is too large.
     """
-    media_type = request.headers.get("content-type", "").partition(";")[0].strip().lower()
+    media_type = _bare(request.headers.get("content-type"))
     if request.headers.get("content-encoding", "identity").lower() != "identity":
         raise ProblemError("media_type_unsupported", "compressed bodies are not taken")
-    if media_type.startswith("image/") or media_type in ("", "application/octet-stream"):
-        async for chunk in chunks(request, limit):
-            yield chunk
-    elif media_type == FORM:
-        async for chunk in _form_file(request, limit):
-            yield chunk
+    if media_type == FORM:
+        async with _form_file(request, limit) as file:
+            yield Upload(_bare(file.content_type), _pieces(file))
+    elif media_type.startswith(FAMILIES) or media_type in (BUFFER, *UNTOLD):
+        yield Upload(media_type, chunks(request, limit))
     else:
         raise ProblemError(
-            "media_type_unsupported", f"image/*, application/octet-stream and {FORM} are taken"
+            "media_type_unsupported",
+            f"image/*, model/*, {BUFFER}, application/octet-stream and {FORM} are taken",
         )
 
 
@@ -78,7 +91,8 @@ def passing(path: Path) -> Iterator[Path]:
         path.unlink(missing_ok=True)
 
 
-async def _form_file(request: Request, limit: int) -> AsyncIterator[bytes]:
+@asynccontextmanager
+async def _form_file(request: Request, limit: int) -> AsyncIterator[UploadFile]:
     async def body() -> AsyncGenerator[bytes, None]:
         async for chunk in chunks(request, limit):
             yield chunk
@@ -93,10 +107,19 @@ async def _form_file(request: Request, limit: int) -> AsyncIterator[bytes]:
             raise _misfit("missing", f"the form must hold a file called {FIELD}")
         if len(form.multi_items()) != 1:
             raise _misfit("unknown_key", f"the form must hold nothing but one {FIELD}")
-        while piece := await file.read(PIECE):
-            yield piece
+        yield file
     finally:
         await form.close()
+
+
+async def _pieces(file: UploadFile) -> AsyncIterator[bytes]:
+    while piece := await file.read(PIECE):
+        yield piece
+
+
+def _bare(content_type: str | None) -> str:
+    """Return a media type without its parameters."""
+    return (content_type or "").partition(";")[0].strip().lower()
 
 
 def _misfit(code: str, message: str) -> ProblemError:
