@@ -2,20 +2,22 @@
 
 import math
 
-from api_schemas.camera import Camera, OrthographicCamera
+from api_schemas.camera import Camera, OrthographicCamera, PosedCamera
 from api_schemas.geometry import Affine, Vector3, affine, dot, length, triple
 from api_schemas.transforms import MatrixPlacement
 
 
-def coverage(reach: float, placed: Affine | None, camera: Camera, aspect: float) -> float:
+def coverage(reach: float, placed: Affine | None, camera: Camera | None, aspect: float) -> float:
     """Return the share of the picture, 0..1, that lies behind the ball's outline.
 
     Args:
         reach: Radius of a ball round the mesh's origin that holds the mesh.
         placed: Where the mesh stands; without a place it covers everything.
-        camera: The eye.
+        camera: The eye; one that is placed by what it sees may see nothing else.
         aspect: Width over height of the picture.
     """
+    if not isinstance(camera, PosedCamera):
+        return 1.0
     view = _view(camera)
     if placed is None or view is None:
         return 1.0
@@ -36,7 +38,7 @@ def coverage(reach: float, placed: Affine | None, camera: Camera, aspect: float)
     return min(1.0, math.pi * outline * outline * slant / picture)
 
 
-def _view(camera: Camera) -> tuple[Vector3, Vector3] | None:
+def _view(camera: PosedCamera) -> tuple[Vector3, Vector3] | None:
     """Return where the eye is and the unit vector of where it looks, if there is one."""
     pose = camera.pose
     if isinstance(pose, MatrixPlacement):

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from api_schemas.assets import AssetFacts
+from api_schemas.assets import AssetFacts, ImageFacts
 from api_schemas.base import Schema
 from api_schemas.families import Meaning
 from api_schemas.output import Format
@@ -21,7 +21,7 @@ def normalise(request: Request, file_format: Format, facts: Mapping[str, AssetFa
         if not isinstance(part, ImageSpec) or part.encoding != "auto":
             return part
         asset = facts[part.asset]
-        encoded = meaning == "colour" and not asset.float
+        encoded = meaning == "colour" and isinstance(asset, ImageFacts) and not asset.float
         return part.model_copy(update={"encoding": "srgb" if encoded else "linear"})
 
     output = request.output.model_copy(update={"format": file_format})

@@ -17,6 +17,19 @@ PngBits = Literal[8, 16]
 ExrType = Literal["half", "float"]
 ToneCurve = Literal["none", "reinhard", "aces"]
 
+Layer = Literal[
+    "depth",
+    "position",
+    "normal",
+    "geometric_normal",
+    "tangent",
+    "uv",
+    "albedo",
+    "object_id",
+    "material_id",
+    "coverage",
+]
+
 MEDIA_TYPES: Mapping[Format, MediaType] = {"png": "image/png", "exr": "image/x-exr"}
 """The media type of each file format."""
 
@@ -54,4 +67,10 @@ class RenderOutput(Output):
 
     supersampling: Annotated[int, Field(ge=1, le=8), WHOLE] = Field(
         default=2, description="Samples per pixel along each side: more are smoother and slower."
+    )
+    layers: Annotated[list[Layer], Field(max_length=10)] = Field(
+        default=[],
+        json_schema_extra={"uniqueItems": True},
+        description="What an EXR tells of each pixel besides its colour; a PNG shows one layer "
+        "instead of the colour.",
     )

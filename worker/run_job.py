@@ -8,14 +8,17 @@ from pathlib import Path
 from typing import Any
 
 from api_schemas.families import Meaning, TextureSpec
+from api_schemas.feasibility import assets_in
 from api_schemas.requests import REQUESTS, RenderRequest, Request
 from api_schemas.textures.image import ImageSpec
 from worker import result_file, synthesis
+from worker.errors import AssetMissingError
 from worker.fingerprint import fingerprint
 from worker.images.image import Image
 from worker.rendering import renderer
 from worker.rendering.scene_builder import TextureMaker
 from worker.stages import Report, Stages
+from worker.uploaded_models import UploadedModels
 from worker.uploaded_pictures import UploadedPictures
 
 
@@ -40,7 +43,8 @@ def run(request: dict[str, Any], out: Path, report: Report) -> dict[str, Any]:
         report: Told the share of the job that is done, 0..1, and the name of the stage.
 
     Returns:
-        JSON-able facts: media_type, bytes, sha256, width, height, timings in milliseconds, counts.
+        JSON-able facts: media_type, bytes, sha256, width, height, timings in milliseconds, counts,
+        warnings.
 
     Raises:
         WorkerError: The job cannot be done; its code says why.
@@ -48,12 +52,18 @@ def run(request: dict[str, Any], out: Path, report: Report) -> dict[str, Any]:
     body: Request = REQUESTS[request["kind"]].model_validate(request["body"])
     stages = Stages(report)
     timings, counts = stages.timings, dict[str, int]()
+    warnings: tuple[str, ...] = ()
     with stages.stage("find", 0.0, 0.02):
-        pictures = UploadedPictures(Path(request["assets"]), body)
+        assets = Path(request["assets"])
+        pictures = UploadedPictures(assets)
+        models = UploadedModels(assets, pictures)
+        _find(body, assets)
     if isinstance(body, RenderRequest):
         with stages.stage("render", 0.02, 0.85) as progress:
-            drawn = renderer.render(body.scene, body.output, _maker(pictures), progress)
-            image, counts = drawn.image, drawn.counts
+            drawn = renderer.render(
+                body.scene, body.output, _maker(pictures), models.read, progress
+            )
+            image, counts, warnings = drawn.image, drawn.counts, drawn.warnings
             timings |= drawn.timings
     else:
         with stages.stage("synthesise", 0.02, 0.85):
@@ -71,7 +81,19 @@ def run(request: dict[str, Any], out: Path, report: Report) -> dict[str, Any]:
         "height": image.height,
         "timings": timings,
         "counts": counts,
+        "warnings": list(warnings),
     }
+
+
+def _find(body: Request, assets: Path) -> None:
+    """Look whether every asset of a request is stored.
+
+    Raises:
+        AssetMissingError: The first one that is not.
+    """
+    for pointer, asset in assets_in(body):
+        if not (assets / asset[:2] / asset).is_file():
+            raise AssetMissingError("the asset is not stored any more", pointer)
 
 
 def _maker(pictures: UploadedPictures) -> TextureMaker:

@@ -1,7 +1,7 @@
 import itertools
 import json
 
-from api_schemas.assets import AssetFacts
+from api_schemas.assets import ImageFacts
 from api_schemas.estimate import estimate
 from api_schemas.requests import REQUESTS, RenderRequest, TextureRequest
 from tests.examples import examples
@@ -45,7 +45,7 @@ def test_every_example_is_cheap():
 
 
 def upload(name, side):
-    return AssetFacts(
+    return ImageFacts(
         sha256=name * 64,
         kind="image",
         media_type="image/png",

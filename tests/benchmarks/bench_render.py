@@ -158,7 +158,7 @@ def stock_ms() -> float:
                 pyrender.Primitive(
                     positions=mesh.positions,
                     normals=mesh.normals,
-                    texcoord_0=mesh.uv,
+                    texcoord_0=mesh.uv(),
                     indices=mesh.triangles,
                     material=material,
                 )

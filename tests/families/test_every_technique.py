@@ -84,7 +84,13 @@ def test_any_valid_surface_is_drawn_finite_deterministic_and_leaves_its_spec_alo
     def drawn(scene):
         output = RenderOutput(size=list(SIZE), supersampling=1)
         maker = partial(synthesize, size=SIZE, load=picture)
-        return render(scene, output, lambda spec, meaning: maker(spec, meaning=meaning), unheard)
+        return render(
+            scene,
+            output,
+            lambda spec, meaning: maker(spec, meaning=meaning),
+            lambda mesh: pytest.fail("there is no model in the scene"),
+            unheard,
+        )
 
     # Each example compiles a program of its own.
     @settings(max_examples=8)

@@ -43,7 +43,7 @@ def world_from_camera(pose: LookAt | MatrixPlacement) -> Matrix:
             (`camera_degenerate`).
     """
     if isinstance(pose, MatrixPlacement):
-        return _orthonormal(parent_from_node(pose))
+        return orthonormal(parent_from_node(pose))
     eye, target, up = (np.array(v, dtype=np.float64) for v in (pose.eye, pose.target, pose.up))
     backward = _unit(eye - target, "the camera's eye and target are one point")
     upward = _unit(up, "the camera's up vector has no length")
@@ -53,7 +53,12 @@ def world_from_camera(pose: LookAt | MatrixPlacement) -> Matrix:
     return matrix
 
 
-def _orthonormal(matrix: Matrix) -> Matrix:
+def orthonormal(matrix: Matrix) -> Matrix:
+    """Take scale and shear out of a camera's frame; it looks where it looked.
+
+    Raises:
+        RenderError: The matrix is singular (`camera_degenerate`).
+    """
     backward = _unit(matrix[:3, 2], "the camera's matrix is singular")
     upward = _unit(matrix[:3, 1], "the camera's matrix is singular")
     right = _unit(np.cross(upward, backward), "the camera's matrix is singular")

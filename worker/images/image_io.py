@@ -92,13 +92,14 @@ def measure(path: Path) -> ImageFacts:
     }
 
 
-def read(path: Path, transfer: Transfer, meaning: Meaning) -> Image:
+def read(path: Path, transfer: Transfer, meaning: Meaning, *, alpha: bool = True) -> Image:
     """Read a picture as linear float32; colour with its alpha premultiplied.
 
     Args:
         path: A file of any name.
         transfer: The curve of the stored numbers; alpha never has one.
         meaning: Of the slot that takes the picture.
+        alpha: Whether to read the picture's alpha; without it colours stay as they are stored.
 
     Raises:
         UnusableAssetError: As `measure`.
@@ -107,7 +108,10 @@ def read(path: Path, transfer: Transfer, meaning: Meaning) -> Image:
     with _opened(path, kind) as file:
         header = inspect(file.spec(), kind)
         decoded = _decode(file, header)
-    pixels = linearise(decoded, transfer, header.alpha, meaning, header.rec709)
+    coverage = header.alpha
+    if coverage != "none" and not alpha:
+        decoded, coverage = np.ascontiguousarray(decoded[..., :-1]), "none"
+    pixels = linearise(decoded, transfer, coverage, meaning, header.rec709)
     return Image(turn(place(pixels, header.data, header.display), header.orientation), meaning)
 
 

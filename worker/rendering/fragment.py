@@ -1,7 +1,7 @@
 """The fragment shader of a surface: its chunk, and generated code that fills its parameters."""
 
 from worker.rendering.chunks import Source, chunk, join
-from worker.rendering.shading import Parameter, ShadingLayout
+from worker.rendering.shading import LookupLayout, Parameter, ShadingLayout
 
 VERSION = "#version 410 core"
 
@@ -33,7 +33,7 @@ def _fragment(layout: ShadingLayout) -> str:
     for index, lookup in enumerate(lookups):
         lines.append(
             f"    vec4 texel_{index} = sample_{lookup.filter}(picture_{lookup.picture}, "
-            f"look_up(coordinates_{lookup.coordinates}(point), lookup_transform[{index}], "
+            f"look_up({_coordinates(lookup)}, lookup_transform[{index}], "
             f"lookup_period[{index}], lookup_size[{index}]));"
         )
     lines.append("    Surface surface;")
@@ -42,10 +42,17 @@ def _fragment(layout: ShadingLayout) -> str:
     return "\n".join(lines)
 
 
+def _coordinates(lookup: LookupLayout) -> str:
+    return f"coordinates_{lookup.coordinates}({', '.join(['point', *map(str, lookup.choices)])})"
+
+
 def _declarations(parameter: Parameter) -> list[str]:
     if parameter.lookup is None:
         return [f"uniform {parameter.type} {parameter.name}_value;"]
-    declared = [f"uniform vec2 {parameter.name}_scale_bias;"]
+    declared = [
+        f"uniform {parameter.type} {parameter.name}_scale;",
+        f"uniform float {parameter.name}_bias;",
+    ]
     if parameter.type == "float":
         declared.append(f"uniform int {parameter.name}_channel;")
     return declared
@@ -57,4 +64,4 @@ def _value(parameter: Parameter) -> str:
         return f"{name}_value"
     # Indexing the texel keeps an infinity in another channel out; a dot product would not.
     channel = ".rgb" if parameter.type == "vec3" else f"[{name}_channel]"
-    return f"{name}_scale_bias.x * texel_{parameter.lookup}{channel} + {name}_scale_bias.y"
+    return f"{name}_scale * texel_{parameter.lookup}{channel} + {name}_bias"

@@ -1,11 +1,11 @@
 """pyrender's Renderer with our programs, our float targets and our uniforms.
 
-Of pyrender remain the scene, the traversal, vertex buffers and the contexts. Overridden are its
-private hooks, which a pinned version and a test keep where they are. Not used are its shaders,
-which clamp and encode, its textures, which truncate floats, and its lights.
+Of pyrender remain the scene, the traversal and the contexts. Overridden are its private hooks,
+which a pinned version and a test keep where they are. Not used are its shaders, which clamp and
+encode, its textures, which truncate floats, its vertex buffers, whose attributes move, and its
+lights.
 """
 
-import copy
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -24,8 +24,9 @@ from worker.rendering.programs import Program, ProgramCache
 from worker.rendering.samplers import SamplerCache
 from worker.rendering.shading import Shading
 from worker.rendering.targets import Target
+from worker.rendering.vertex_arrays import VertexArray
 
-UploadedMesh: TypeAlias = pyrender.Primitive
+UploadedMesh: TypeAlias = VertexArray
 """A mesh in OpenGL."""
 
 _SET_BY_PYRENDER = frozenset({"V", "P", "cam_pos"})
@@ -50,7 +51,7 @@ class View:
 class Drawable:
     """A mesh in OpenGL, a surface, and where they stand."""
 
-    primitive: UploadedMesh
+    mesh: UploadedMesh
     shading: Shading
     world_from_object: Matrix
 
@@ -67,6 +68,15 @@ class SurfaceMaterial(pyrender.Material):  # type: ignore[misc]
     def textures(self) -> set[Any]:
         """Tell pyrender of no textures."""
         return set()
+
+
+class SurfacePrimitive(pyrender.Primitive):  # type: ignore[misc]
+    """Carries a mesh and its surface through pyrender's traversal."""
+
+    def __init__(self, mesh: UploadedMesh, shading: Shading) -> None:
+        """Take what is drawn; pyrender itself learns of no vertices."""
+        super().__init__(positions=np.empty((0, 3)), material=SurfaceMaterial(shading))
+        self.mesh = mesh
 
 
 class PlacedNode(pyrender.Node):  # type: ignore[misc]
@@ -93,18 +103,13 @@ class MatrixCamera(pyrender.Camera):  # type: ignore[misc]
 
 
 def upload_mesh(mesh: Mesh) -> UploadedMesh:
-    """Copy a mesh to OpenGL; attributes 0, 1, 2 are position, normal and uv."""
-    primitive = pyrender.Primitive(
-        positions=mesh.positions, normals=mesh.normals, texcoord_0=mesh.uv, indices=mesh.triangles
-    )
-    primitive._add_to_context()
-    check("uploading a mesh")
-    return primitive
+    """Copy a mesh to OpenGL, at the attribute locations of mesh.vert."""
+    return VertexArray.upload(mesh)
 
 
-def delete_mesh(primitive: UploadedMesh) -> None:
+def delete_mesh(mesh: UploadedMesh) -> None:
     """Free a mesh's buffers."""
-    primitive.delete()
+    mesh.delete()
 
 
 def pyrender_scene(drawables: Sequence[Drawable], view: View) -> "pyrender.Scene":
@@ -113,10 +118,7 @@ def pyrender_scene(drawables: Sequence[Drawable], view: View) -> "pyrender.Scene
     camera = MatrixCamera(view.clip_from_camera)
     scene.add_node(PlacedNode(view.world_from_camera, -1, camera=camera))
     for order, drawable in enumerate(drawables):
-        # A copy shares the vertex buffers: one mesh may be drawn with many surfaces.
-        primitive = copy.copy(drawable.primitive)
-        primitive.material = SurfaceMaterial(drawable.shading)
-        mesh = pyrender.Mesh([primitive])
+        mesh = pyrender.Mesh([SurfacePrimitive(drawable.mesh, drawable.shading)])
         scene.add_node(PlacedNode(drawable.world_from_object, order, mesh=mesh))
     return scene
 
@@ -174,6 +176,7 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         target: Target,
         tile_from_picture: Matrix,
         size: tuple[int, int],
+        supersampling: int,
     ) -> None:
         """Draw one tile into the lower left part of a target; where nothing is, all four are 0.
 
@@ -184,6 +187,7 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
             target: Where the samples go.
             tile_from_picture: Stretches the tile's part of clip space over all of it.
             size: The tile's width and height in samples.
+            supersampling: Samples along each side of a pixel: how wide lines and points are.
 
         Raises:
             RenderError: OpenGL complains, or this is not the context's thread.
@@ -203,6 +207,8 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
             frame.eye = np.append(view.world_from_camera[:3, 2], 0.0)
         self._frame = frame
         self.viewport_width, self.viewport_height = size
+        GL.glLineWidth(supersampling)
+        GL.glPointSize(supersampling)
         self.render(scene, RenderFlags.OFFSCREEN)
         check("drawing a tile")
 
@@ -258,6 +264,8 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         program.set("clip_from_object", frame.clip_from_world @ pose)
         program.set("eye_from_object", frame.eye_from_world @ pose)
         program.set("normal_from_object", normal_matrix(pose))
+        mirrored = np.linalg.det(pose[:3, :3]) < 0
+        program.set("handedness", -1.0 if mirrored else 1.0)
         shading: Shading = primitive.material.shading
         for name, value in shading.uniforms.items():
             program.set(name, value)
@@ -266,16 +274,16 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
             GL.glBindTexture(GL.GL_TEXTURE_2D, picture.texture.number)
             GL.glBindSampler(unit, self._samplers.get(picture.sampling, picture.border))
             program.set(f"picture_{unit}", unit)
+        mesh: UploadedMesh = primitive.mesh
         start = time.perf_counter()
-        primitive._bind()
+        mesh.bind()
         # A mirrored transform turns the winding, but not which side is the outer one.
-        mirrored = np.linalg.det(pose[:3, :3]) < 0
         GL.glFrontFace(GL.GL_CW if mirrored else GL.GL_CCW)
         # Outer sides first: the depth test then spares the shading of inner sides behind them.
-        for hidden in (GL.GL_BACK, GL.GL_FRONT):
+        for hidden in (GL.GL_BACK, GL.GL_FRONT) if mesh.has_sides else (GL.GL_BACK,):
             GL.glCullFace(hidden)
-            GL.glDrawElements(GL.GL_TRIANGLES, primitive.indices.size, GL.GL_UNSIGNED_INT, None)
-        primitive._unbind()
+            mesh.draw()
+        GL.glBindVertexArray(0)
         if not program.drawn:
             program.drawn = True
             self.jit_seconds += time.perf_counter() - start

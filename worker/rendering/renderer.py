@@ -11,13 +11,16 @@ import numpy as np
 
 from api_schemas.families import Meaning, TextureSpec
 from api_schemas.language import FAMILIES
+from api_schemas.model_mesh import ModelMesh
 from api_schemas.output import RenderOutput
 from api_schemas.scene import Scene
+from worker.errors import RenderError
+from worker.geometry.model import Model
 from worker.images.image import Image
 from worker.rendering.gl_context import GLContext, check
 from worker.rendering.lighting import light_uniforms
 from worker.rendering.pyrender_adapter import FloatRenderer, pyrender_scene
-from worker.rendering.scene_builder import SceneBuilder, TextureMaker
+from worker.rendering.scene_builder import ModelReader, SceneBuilder, TextureMaker
 from worker.rendering.shading import surface_fields
 from worker.rendering.targets import TargetPair
 from worker.rendering.tiles import pixels_per_tile, tile_from_picture, tiles
@@ -32,11 +35,13 @@ class Rendering:
         image: float32 (height, width, 4), linear, alpha premultiplied; 0 where nothing is.
         timings: Milliseconds: draw_ms, and jit_ms for linking programs and their first draws.
         counts: triangles and texels.
+        warnings: What uploaded models ask for and do not get.
     """
 
     image: Image
     timings: dict[str, float]
     counts: dict[str, int]
+    warnings: tuple[str, ...]
 
 
 class _Engine:
@@ -56,7 +61,13 @@ def _engine() -> _Engine:
     return _Engine()
 
 
-def render(scene: Scene, output: RenderOutput, textures: TextureMaker, report: Report) -> Rendering:
+def render(
+    scene: Scene,
+    output: RenderOutput,
+    textures: TextureMaker,
+    models: ModelReader,
+    report: Report,
+) -> Rendering:
     """Draw a scene as linear light.
 
     Always call it from the same thread; the first call opens the process's OpenGL context.
@@ -65,6 +76,7 @@ def render(scene: Scene, output: RenderOutput, textures: TextureMaker, report: R
         scene: What to draw.
         output: Its size and supersampling count here; the file is not this function's business.
         textures: Makes the picture of a texture, read as "colour" or "data".
+        models: Reads uploaded models.
         report: Called with the finished part, 0..1, and the stage's name.
 
     Raises:
@@ -74,8 +86,8 @@ def render(scene: Scene, output: RenderOutput, textures: TextureMaker, report: R
     engine.context.check_thread()
     width, height = output.size
     report(0.0, "build")
-    built = engine.builder.build(scene, width / height, textures)
-    lights = light_uniforms(scene.lights, built.view.world_from_camera[:3, 3])
+    built = engine.builder.build(scene, width / height, textures, models)
+    lights = light_uniforms(built.lights, built.view.world_from_camera[:3, 3])
     drawn = pyrender_scene(built.drawables, built.view)
     pixels = np.empty((height, width, 4), dtype=np.float32)
     start, jit_before = time.perf_counter(), engine.renderer.jit_seconds
@@ -86,7 +98,13 @@ def render(scene: Scene, output: RenderOutput, textures: TextureMaker, report: R
         report(done / len(parts), "draw")
         samples = (tile.width * output.supersampling, tile.height * output.supersampling)
         engine.renderer.draw(
-            drawn, built.view, lights, target, tile_from_picture(tile, width, height), samples
+            drawn,
+            built.view,
+            lights,
+            target,
+            tile_from_picture(tile, width, height),
+            samples,
+            output.supersampling,
         )
         top = height - tile.bottom - tile.height
         engine.targets.resolve(
@@ -103,7 +121,7 @@ def render(scene: Scene, output: RenderOutput, textures: TextureMaker, report: R
     engine.builder.trim()
     engine.renderer.trim()
     report(1.0, "draw")
-    return Rendering(Image(pixels, "colour"), timings, counts)
+    return Rendering(Image(pixels, "colour"), timings, counts, built.warnings)
 
 
 def fingerprint() -> str:
@@ -120,7 +138,7 @@ def warm(report: Report) -> None:
     surfaces = list(_typical())
     for done, surface in enumerate(surfaces):
         report(done / len(surfaces), f"compile {surface['technique']}")
-        render(_poster(surface), output, _grey, lambda fraction, stage: None)
+        render(_poster(surface), output, _grey, _no_model, lambda fraction, stage: None)
     report(1.0, "compile")
 
 
@@ -140,6 +158,10 @@ def _poster(surface: dict[str, Any]) -> Scene:
             "nodes": [{"mesh": {"type": "plane"}, "surface": surface}],
         }
     )
+
+
+def _no_model(mesh: ModelMesh) -> Model:
+    raise RenderError("there is no model to warm up with")
 
 
 def _grey(spec: TextureSpec, meaning: Meaning) -> Image:

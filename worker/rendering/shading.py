@@ -42,9 +42,17 @@ class Parameter:
 
 @dataclass(frozen=True, slots=True)
 class LookupLayout:
-    """One reading of a picture; parameters that share a lookup cost one."""
+    """One reading of a picture; parameters that share a lookup cost one.
+
+    Attributes:
+        coordinates: The technique that says where.
+        choices: Its parameters, in the order of its fields; they are constants of the program.
+        filter: How texels become a pixel.
+        picture: Which unit is read.
+    """
 
     coordinates: str
+    choices: tuple[int, ...]
     filter: Filter
     picture: int
 
@@ -138,18 +146,21 @@ class _Plan:
 
     def parameter(self, surface: SurfaceSpec, name: str, kind: str) -> Parameter:
         value = getattr(surface, name)
-        if not isinstance(value, Map):
+        if not isinstance(value, ColorMap | NumberMap):
             self._uniforms[name + "_value"] = _plain(surface, name, kind, value)
             return Parameter(name, kind, None)
-        self._uniforms[name + "_scale_bias"] = (value.scale, value.bias)
+        self._uniforms[name + "_bias"] = value.bias
         if isinstance(value, NumberMap):
+            self._uniforms[name + "_scale"] = value.scale
             self._uniforms[name + "_channel"] = "rgba".index(value.channel)
+        else:
+            self._uniforms[name + "_scale"] = value.scale * np.array(value.tint)
         return Parameter(name, kind, self._lookup(value, _MEANINGS[kind]))
 
-    def _lookup(self, mapped: Map, meaning: Meaning) -> int:
-        assert isinstance(mapped, ColorMap | NumberMap)
+    def _lookup(self, mapped: ColorMap | NumberMap, meaning: Meaning) -> int:
         picture = self._picture(mapped, mapped.texture, meaning)
-        layout = LookupLayout(mapped.coordinates.technique, mapped.filter, picture)
+        technique, *choices = mapped.coordinates.model_dump().values()
+        layout = LookupLayout(technique, tuple(choices), mapped.filter, picture)
         key = json.dumps(
             [picture, mapped.filter, mapped.coordinates.model_dump(), mapped.transform.model_dump()]
         )
