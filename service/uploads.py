@@ -67,19 +67,43 @@ async def stored(content: AsyncIterator[bytes], path: Path) -> str:
     return sha256.hexdigest()
 
 
-def measured(engine: EmbeddedEngine, path: Path, sha256: str, limit_seconds: float) -> AssetFacts:
-    """Return the facts of an uploaded file.
+def may_be_more(known: AssetFacts, media_type: str) -> bool:
+    """Whether an upload that is there already is now called something better.
+
+    Any bytes may be a buffer, and be called one; what their content tells can be more.
+    """
+    return known.kind == "buffer" and media_type != BUFFER
+
+
+def measured_and_kept(
+    engine: EmbeddedEngine,
+    tenant: str,
+    path: Path,
+    sha256: str,
+    media_type: str,
+    limit_seconds: float,
+) -> AssetFacts:
+    """Look into an upload, which its caller calls `media_type`, and take it over.
+
+    Returns:
+        What is known of it from now on.
 
     Raises:
         ProblemError: It cannot be used.
     """
     try:
-        facts = engine.measure(path, limit_seconds)
+        facts = engine.measure(path, limit_seconds, media_type)
     except MeasuringError as error:
         code = error.failure["code"]
         known = code if TABLE.get(code, (0, ""))[0] == 409 else "asset_unusable"
         raise ProblemError(known, error.failure["message"]) from None
-    return ASSET_FACTS.validate_python(facts | {"sha256": sha256, "bytes": path.stat().st_size})
+    found = ASSET_FACTS.validate_python(facts | {"sha256": sha256, "bytes": path.stat().st_size})
+    told = found.model_dump(mode="json")
+    there = ASSET_FACTS.validate_python(engine.assets.put(tenant, path, sha256, told).facts)
+    if not may_be_more(there, found.media_type):
+        return there
+    engine.assets.tell(tenant, sha256, told)
+    return found
 
 
 @contextmanager

@@ -16,9 +16,7 @@ POSITIONS_BYTES = 48
 OBJ = (
     b"mtllib square.mtl\nusemtl red\n"
     + b"".join(b"v %g %g %g\n" % corner for corner in CORNERS)
-    + b"".join(
-        b"f %d %d %d\n" % tuple(index + 1 for index in triangle) for triangle in TRIANGLES
-    )
+    + b"".join(b"f %d %d %d\n" % tuple(index + 1 for index in triangle) for triangle in TRIANGLES)
 )
 MTL = b"newmtl red\nKd 1 0 0\n"
 STL = (
