@@ -8,7 +8,7 @@ from worker.errors import RenderError
 from worker.geometry.model import Model, Part
 
 
-def surface_of(mesh: ModelMesh, model: Model) -> Iterator[tuple[Part, SurfaceSpec | None]]:
+def seen_parts(mesh: ModelMesh, model: Model) -> Iterator[tuple[Part, SurfaceSpec | None]]:
     """Yield the parts of a model that are seen, each with its surface, if it has one.
 
     A changed node wins over a changed material. A name addresses all that bear it; the last change

@@ -21,7 +21,7 @@ from worker.images.image import Image
 from worker.images.pyramids import mip_chain
 from worker.rendering.cache import ByteCache
 from worker.rendering.framing import Box
-from worker.rendering.model_changes import surface_of
+from worker.rendering.model_changes import seen_parts
 from worker.rendering.pyrender_adapter import Drawable, UploadedMesh, View, delete_mesh, upload_mesh
 from worker.rendering.shading import Shading, shade
 from worker.rendering.staging import PlacedModel, lights_of, view_of
@@ -173,7 +173,7 @@ def _parts(
     mesh: ModelMesh, surface: SurfaceSpec | None, model: Model, matrix: Matrix
 ) -> Iterator[_Placed]:
     beside = "".join(f"{name} {asset} " for name, asset in sorted(mesh.files.items()))
-    for part, worn in surface_of(mesh, model):
+    for part, worn in seen_parts(mesh, model):
         yield _Placed(
             key=f"{mesh.asset} {beside}{part.key}",
             mesh=partial(_mesh_of, part),
