@@ -6,14 +6,15 @@ only has to tell a second from a minute and a megabyte from a gigabyte.
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import chain
 
-from api_schemas.assets import AssetFacts, ImageFacts, ModelFacts
+from api_schemas.assets import AssetFacts, ImageFacts
+from api_schemas.bodies import BYTES_PER_KEPT_TEXEL, BYTES_PER_TEXEL, SECONDS_PER_TEXEL, body
 from api_schemas.cost import Cost
 from api_schemas.coverage import coverage
-from api_schemas.families import TextureSpec
-from api_schemas.geometry import IDENTITY, Affine, affine
-from api_schemas.maps import ColorMap, NormalMap, NumberMap
-from api_schemas.model_mesh import ModelMesh
+from api_schemas.families import SurfaceSpec, TextureSpec
+from api_schemas.geometry import IDENTITY, Affine, Vector3, affine
+from api_schemas.maps import ColorMap, Map, NormalMap, NumberMap
 from api_schemas.output import Output
 from api_schemas.requests import RenderRequest, Request
 from api_schemas.scene import Node
@@ -32,12 +33,11 @@ SECONDS_PER_MAP_SAMPLE = {
     "anisotropic": 1.5e-7,
 }
 SECONDS_TO_COMPILE_A_MAP = 0.12
-SECONDS_PER_TRIANGLE = 4e-7
 SECONDS_PER_DRAWN_TRIANGLE = 5e-8
-SECONDS_PER_TEXEL = 1e-7
-BYTES_PER_TEXEL = 64
-BYTES_PER_KEPT_TEXEL = 24
-BYTES_PER_TRIANGLE = 200
+SECONDS_PER_DRAW = 1e-4
+MAPS_OF_A_MATERIAL = 3
+"""Of a material of a model, where facts tell of pictures at all: colour, normals and the rest."""
+LIGHTS_OF_A_STUDIO = 2
 BYTES_PER_PIXEL = 48
 BYTES_PER_SAMPLE = 52
 TILE_SIDE = 2048
@@ -90,56 +90,65 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
         samples * SECONDS_PER_SAMPLE, float(min(samples * BYTES_PER_SAMPLE, BYTES_PER_TILE))
     )
     scene = request.scene
-    lighting = SECONDS_PER_SHADED_SAMPLE + len(scene.lights or []) * SECONDS_PER_LIGHT_SAMPLE
+    bodies = [
+        (node, placed, found)
+        for node, placed in _placed(scene.nodes, IDENTITY)
+        if node.mesh is not None and (found := body(node.mesh, facts)) is not None
+    ]
+    shining = (
+        max(LIGHTS_OF_A_STUDIO, sum(found.lights for _, _, found in bodies))
+        if scene.lights is None
+        else len(scene.lights)
+    )
+    lighting = SECONDS_PER_SHADED_SAMPLE + shining * SECONDS_PER_LIGHT_SAMPLE
     making = 0.0
     made = set()
-    for node, placed in _placed(scene.nodes, IDENTITY):
-        if node.mesh is None:
-            continue
-        if isinstance(node.mesh, ModelMesh):
-            cost += _model(node.mesh, facts, samples, tiles, lighting)
-            continue
-        triangles = node.mesh.triangles
-        cost += Cost(tiles * triangles * SECONDS_PER_DRAWN_TRIANGLE)
-        if (mesh := node.mesh.model_dump_json()) not in made:
-            made.add(mesh)
-            cost += Cost(triangles * SECONDS_PER_TRIANGLE, triangles * BYTES_PER_TRIANGLE)
-        maps = [part for _, part in parts(node.surface) if isinstance(part, MAPS)]
-        shading = lighting + sum(SECONDS_PER_MAP_SAMPLE[item.filter] for item in maps)
-        covered = coverage(node.mesh.reach, placed, scene.camera, width / height)
-        cost += Cost(samples * covered * shading)
-        for item in maps:
-            picture = f"{type(item).__name__} {item.texture.model_dump_json()}"
-            if picture not in made:
-                made.add(picture)
-                picture_cost = _textures(item.texture, facts, item.texture.surface_side**2)
-                making = max(making, picture_cost.bytes)
-                texels = _texels_worn(item.texture, facts)
-                cost += Cost(picture_cost.seconds, texels * BYTES_PER_KEPT_TEXEL)
-            if (program := f"{picture} {item.filter} {item.wrap}") not in made:
-                made.add(program)
-                cost += Cost(SECONDS_TO_COMPILE_A_MAP)
+    worn = [_maps(scene.background)]
+    cost += Cost(samples * _sampling(worn[0]))
+    for node, placed, found in bodies:
+        cost += Cost(tiles * found.pieces * SECONDS_PER_DRAWN_TRIANGLE)
+        cost += Cost(tiles * (found.draws - 1) * SECONDS_PER_DRAW)
+        if found.key not in made:
+            made.add(found.key)
+            cost += found.making
+            cost += Cost(MAPS_OF_A_MATERIAL * SECONDS_TO_COMPILE_A_MAP * found.pictures)
+        shown = node.surface or node.mesh
+        surfaces = [part for _, part in parts(shown) if isinstance(part, SurfaceSpec)]
+        worn += (maps := [_maps(surface) for surface in surfaces])
+        own = MAPS_OF_A_MATERIAL * found.pictures * SECONDS_PER_MAP_SAMPLE["anisotropic"]
+        shading = lighting + max([own, *map(_sampling, maps)])
+        covered = coverage(found.reach, _moved(placed, found.middle), scene.camera, width / height)
+        # The parts of one model hide each other: few are seen one behind the other.
+        cost += Cost(samples * covered * shading * math.sqrt(found.draws))
+    for item in chain.from_iterable(worn):
+        picture = f"{type(item).__name__} {item.texture.model_dump_json()}"
+        if picture not in made:
+            made.add(picture)
+            picture_cost = _textures(item.texture, facts, item.texture.surface_side**2)
+            making = max(making, picture_cost.bytes)
+            texels = _texels_worn(item.texture, facts)
+            cost += Cost(picture_cost.seconds, texels * BYTES_PER_KEPT_TEXEL)
+        if (program := f"{picture} {item.filter} {item.wrap}") not in made:
+            made.add(program)
+            cost += Cost(SECONDS_TO_COMPILE_A_MAP)
     # Equal things are made once, one after another, and kept: only the largest counts twice.
     return cost + Cost(bytes=making)
 
 
-def _model(
-    mesh: ModelMesh, facts: Mapping[str, AssetFacts], samples: int, tiles: int, lighting: float
-) -> Cost:
-    found = facts.get(mesh.asset)
-    if not isinstance(found, ModelFacts):
-        return Cost()
-    pictures = [facts.get(asset) for asset in mesh.files.values()]
-    texels = found.texels + sum(
-        picture.width * picture.height for picture in pictures if isinstance(picture, ImageFacts)
-    )
-    return Cost(
-        seconds=tiles * found.triangles * SECONDS_PER_DRAWN_TRIANGLE
-        + found.triangles * SECONDS_PER_TRIANGLE
-        + texels * SECONDS_PER_TEXEL
-        + samples * (lighting + SECONDS_PER_MAP_SAMPLE["anisotropic"]),
-        bytes=found.triangles * BYTES_PER_TRIANGLE + texels * (BYTES_PER_TEXEL),
-    )
+def _maps(value: object) -> list[ColorMap | NumberMap | NormalMap]:
+    return [part for _, part in parts(value) if isinstance(part, MAPS)]
+
+
+def _sampling(maps: Sequence[Map]) -> float:
+    """Return the seconds that looking up all of them once takes."""
+    return sum(SECONDS_PER_MAP_SAMPLE[item.filter] for item in maps)
+
+
+def _moved(placed: Affine | None, middle: Vector3) -> Affine | None:
+    """Return a place whose origin is what was the point `middle`."""
+    if placed is None:
+        return None
+    return placed @ Affine(IDENTITY.x, IDENTITY.y, IDENTITY.z, middle)
 
 
 def _placed(nodes: Sequence[Node], parent: Affine | None) -> Iterator[tuple[Node, Affine | None]]:

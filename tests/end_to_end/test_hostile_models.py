@@ -1,7 +1,6 @@
 """Models made to harm: each is taken or refused by name, and the service goes on."""
 
 import json
-import math
 import struct
 import time
 
