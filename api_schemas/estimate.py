@@ -15,15 +15,12 @@ from api_schemas.coverage import coverage
 from api_schemas.families import SurfaceSpec, TextureSpec
 from api_schemas.geometry import IDENTITY, Affine, Vector3, affine
 from api_schemas.maps import ColorMap, Map, NormalMap, NumberMap
-from api_schemas.output import Output
+from api_schemas.output_cost import samples_of, sampling, tiles_of, writing
 from api_schemas.requests import RenderRequest, Request
 from api_schemas.scene import Node
 from api_schemas.textures.image import ImageSpec
 from api_schemas.walk import parts
 
-SECONDS_TO_START = 0.01
-SECONDS_PER_ENCODED_PIXEL = 1.5e-7
-SECONDS_PER_SAMPLE = 4e-8
 SECONDS_PER_SHADED_SAMPLE = 6e-8
 SECONDS_PER_LIGHT_SAMPLE = 1e-8
 SECONDS_PER_MAP_SAMPLE = {
@@ -38,27 +35,16 @@ SECONDS_PER_DRAW = 1e-4
 MAPS_OF_A_MATERIAL = 3
 """Of a material of a model, where facts tell of pictures at all: colour, normals and the rest."""
 LIGHTS_OF_A_STUDIO = 2
-BYTES_PER_PIXEL = 48
-BYTES_PER_SAMPLE = 52
-TILE_SIDE = 2048
 MAPS = ColorMap | NumberMap | NormalMap
-BYTES_PER_TILE = TILE_SIDE * TILE_SIDE * BYTES_PER_SAMPLE
 
 
 def estimate(request: Request, facts: Mapping[str, AssetFacts]) -> Cost:
     """Return the cost of a request; `facts` knows the assets it speaks of by SHA-256."""
-    cost = _encoding(request.output)
+    cost = writing(request.output)
     width, height = request.output.size
     if isinstance(request, RenderRequest):
         return cost + _drawing(request, facts)
     return cost + _textures(request, facts, width * height)
-
-
-def _encoding(output: Output) -> Cost:
-    pixels = output.size[0] * output.size[1]
-    return Cost(
-        SECONDS_TO_START + pixels * SECONDS_PER_ENCODED_PIXEL, float(pixels * BYTES_PER_PIXEL)
-    )
 
 
 def _textures(value: object, facts: Mapping[str, AssetFacts], pixels: int) -> Cost:
@@ -83,12 +69,9 @@ def _texels(picture: ImageSpec, facts: Mapping[str, AssetFacts]) -> int:
 
 
 def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
-    width, height = (side * request.output.supersampling for side in request.output.size)
-    samples = width * height
-    tiles = math.ceil(width / TILE_SIDE) * math.ceil(height / TILE_SIDE)
-    cost = Cost(
-        samples * SECONDS_PER_SAMPLE, float(min(samples * BYTES_PER_SAMPLE, BYTES_PER_TILE))
-    )
+    width, height = request.output.size
+    samples, tiles = samples_of(request.output), tiles_of(request.output)
+    cost = sampling(request.output)
     scene = request.scene
     bodies = [
         (node, placed, found)

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from api_schemas.maps import NormalMap
 
 Meaning = Literal["colour", "data"]
+AlphaMode = Literal["opaque", "mask", "blend"]
 
 
 class TechniqueSpec(Schema):
@@ -59,9 +60,11 @@ class SurfaceSpec(TechniqueSpec):
         default=1.0,
         description="How much of what is behind is hidden, where alpha_mode is mask or blend.",
     )
-    alpha_mode: Literal["opaque", "mask", "blend"] = Field(
+    alpha_mode: AlphaMode = Field(
         default="opaque",
-        description="Whether opacity is ignored, cuts holes, or lets through what is behind.",
+        description="Whether opacity is ignored, cuts holes, or lets through what is behind. What "
+        "lets light through dims all of its own, highlights and emission too, as in glTF, and is "
+        "drawn after everything else, the farthest middle first.",
     )
     alpha_cutoff: Annotated[float, Field(ge=0, le=1)] = Field(
         default=0.5, description="Opacity below which there is a hole, where alpha_mode is mask."

@@ -10,13 +10,13 @@ from api_schemas.lights import DirectionalLight, Light, SpotLight
 from api_schemas.maps import MAPS_MAX, Map
 from api_schemas.model_mesh import ModelMesh
 from api_schemas.requests import RenderRequest, Request
-from api_schemas.scene import Node
+from api_schemas.scene import NODES_MAX, Node
 from api_schemas.textures.image import ImageSpec
 from api_schemas.transforms import MatrixPlacement
 from api_schemas.walk import deepest, escaped, parts
 
 LEVELS_MAX = 32
-NODES_MAX = 256
+TEXTURES_MAX = 256
 SHORTEST_DIRECTION = 1e-12
 SMALLEST_SINE = 1e-7
 """Sine of the angle between viewing and up direction below which float32 cannot tell up."""
@@ -63,19 +63,22 @@ def _limits(request: Request) -> Iterator[Obstacle]:
         yield Obstacle(
             "nesting_too_deep", place, f"{levels} levels within each other; at most {LEVELS_MAX}"
         )
-    count = 0
+    textures, nodes = 0, 0
     for pointer, part in parts(request):
-        count += isinstance(part, TextureSpec | Node)
+        textures += isinstance(part, TextureSpec)
+        nodes += isinstance(part, Node)
         if isinstance(part, SurfaceSpec):
             maps = sum(isinstance(value, Map) for _, value in parts(part))
             if maps > MAPS_MAX:
                 yield Obstacle(
                     "too_many_maps", pointer, f"{maps} maps on one surface; at most {MAPS_MAX}"
                 )
-    if count > NODES_MAX:
-        yield Obstacle(
-            "too_many_nodes", "", f"{count} textures and scene nodes together; at most {NODES_MAX}"
-        )
+    for count, limit, things in (
+        (textures, TEXTURES_MAX, "textures"),
+        (nodes, NODES_MAX, "scene nodes"),
+    ):
+        if count > limit:
+            yield Obstacle("too_many_nodes", "", f"{count} {things}; at most {limit}")
 
 
 def _camera(camera: Camera | None) -> Iterator[Obstacle]:

@@ -13,6 +13,9 @@ from api_schemas.lights import LIGHTS_MAX, Light
 from api_schemas.meshes import Mesh
 from api_schemas.transforms import Placement, Transform
 
+NODES_MAX = 1024
+"""Nodes of one scene."""
+
 
 class Node(Schema):
     """A place in the scene; what hangs below it moves with it."""
@@ -29,7 +32,7 @@ class Node(Schema):
         description="How the shape reflects light; without one a model has its own materials, and "
         "everything else is matt grey Phong.",
     )
-    children: Annotated[list[Node], Field(max_length=256)] = Field(
+    children: Annotated[list[Node], Field(max_length=NODES_MAX)] = Field(
         default=[], description="Nodes that move with this one."
     )
 
@@ -52,4 +55,4 @@ class Scene(Schema):
         description="What is seen where nothing is: a linear colour, or a picture over the whole "
         "width and height; transparent without.",
     )
-    nodes: Annotated[list[Node], Field(max_length=256)] = Field(description="What is there.")
+    nodes: Annotated[list[Node], Field(max_length=NODES_MAX)] = Field(description="What is there.")

@@ -38,7 +38,7 @@ TABLE: Final[Mapping[str, tuple[int, str]]] = {
     "light_degenerate": (409, "A light has no direction or no shape"),
     "transform_singular": (409, "A transform cannot be undone"),
     "nesting_too_deep": (409, "Too many levels within each other"),
-    "too_many_nodes": (409, "Too many textures and scene nodes"),
+    "too_many_nodes": (409, "Too many textures or scene nodes"),
     "too_many_maps": (409, "Too many maps on one surface"),
     "over_budget": (409, "The request would take too much time or memory"),
     "job_not_finished": (409, "The job is not finished"),

@@ -4,6 +4,7 @@ This is the executor that the door in `worker.jobs` knows by name and loads in i
 """
 
 import hashlib
+import time
 from pathlib import Path
 from typing import Any
 
@@ -16,8 +17,9 @@ from worker.errors import AssetMissingError
 from worker.fingerprint import fingerprint
 from worker.images.image import Image
 from worker.rendering import renderer
+from worker.rendering.packing import PICTURE
 from worker.rendering.scene_builder import TextureMaker
-from worker.stages import Report, Stages
+from worker.stages import Report, Stages, Watch
 from worker.uploaded_models import UploadedModels
 from worker.uploaded_pictures import UploadedPictures
 
@@ -50,6 +52,7 @@ def run(request: dict[str, Any], out: Path, report: Report) -> dict[str, Any]:
         WorkerError: The job cannot be done; its code says why.
     """
     body: Request = REQUESTS[request["kind"]].model_validate(request["body"])
+    width, height = body.output.size
     stages = Stages(report)
     timings, counts = stages.timings, dict[str, int]()
     warnings: tuple[str, ...] = ()
@@ -59,26 +62,33 @@ def run(request: dict[str, Any], out: Path, report: Report) -> dict[str, Any]:
         models = UploadedModels(assets, pictures)
         _find(body, assets)
     if isinstance(body, RenderRequest):
-        with stages.stage("render", 0.02, 0.85) as progress:
+        # A band is written while the next one is waiting to be drawn.
+        with stages.stage("render", 0.02, 0.98) as progress:
             drawn = renderer.render(
                 body.scene, body.output, _maker(pictures), models.read, progress
             )
-            image, counts, warnings = drawn.image, drawn.counts, drawn.warnings
-            timings |= drawn.timings
+            bands = Watch(drawn.bands)
+            start = time.perf_counter()
+            media_type = result_file.write(bands, body.output, request["digest"], out)
+            encoding = 1000 * (time.perf_counter() - start - bands.seconds)
+        timings["encode_ms"] = round(encoding, 3)
+        timings["render_ms"] = round(timings["render_ms"] - encoding, 3)
+        timings |= drawn.timings
+        counts, warnings = drawn.counts, drawn.warnings
     else:
         with stages.stage("synthesise", 0.02, 0.85):
-            width, height = body.output.size
             image = synthesis.synthesize(body.texture, (width, height), pictures.read)
-    with stages.stage("encode", 0.85, 0.98):
-        media_type = result_file.write(image, body.output, request["digest"], out)
+        with stages.stage("encode", 0.85, 0.98):
+            band = {PICTURE: image}
+            media_type = result_file.write([band], body.output, request["digest"], out)
     with stages.stage("hash", 0.98, 1.0), out.open("rb") as file:
         sha256 = hashlib.file_digest(file, "sha256").hexdigest()
     return {
         "media_type": media_type,
         "bytes": out.stat().st_size,
         "sha256": sha256,
-        "width": image.width,
-        "height": image.height,
+        "width": width,
+        "height": height,
         "timings": timings,
         "counts": counts,
         "warnings": list(warnings),

@@ -112,11 +112,21 @@ def test_textures_nest_up_to_32_levels(levels, codes):
     assert [code for code, _ in found(request)] == codes
 
 
-@pytest.mark.parametrize(("count", "codes"), [(256, []), (257, ["too_many_nodes"])])
-def test_a_scene_has_up_to_256_nodes(count, codes):
-    halves = [node({}, *[node({})] * (count - 129)), *[node({})] * 128]
+@pytest.mark.parametrize(("count", "codes"), [(1024, []), (1025, ["too_many_nodes"])])
+def test_a_scene_has_up_to_1024_nodes(count, codes):
+    halves = [node({}, *[node({})] * (count - 513)), *[node({})] * 512]
 
     assert [code for code, _ in found(scene(nodes=halves))] == codes
+
+
+@pytest.mark.parametrize(("count", "codes"), [(256, []), (257, ["too_many_nodes"])])
+def test_a_scene_has_up_to_256_textures_whatever_the_nodes(count, codes):
+    surface = {"technique": "unlit", "color": {"texture": {"technique": "perlin"}}}
+    plain = [node({})] * 500
+
+    assert [
+        c for c, _ in found(scene(nodes=[{**node({}), "surface": surface}] * count + plain))
+    ] == codes
 
 
 def test_a_surface_has_up_to_so_many_maps(monkeypatch):

@@ -5,6 +5,7 @@ from typing import Literal
 
 from worker.errors import UnusableAssetError
 from worker.geometry import obj, ply, stl
+from worker.geometry.gltf import reader as gltf_reader
 from worker.geometry.model import Model
 from worker.geometry.outline import Outline
 from worker.geometry.ply_header import is_ply
@@ -77,8 +78,8 @@ def read_model(data: bytes, files: Mapping[str, bytes], scene: int | None = None
             raise UnusableAssetError(
                 "it is none of glTF, GLB, OBJ, PLY and STL", code="asset_unsupported"
             )
-        case _:
-            raise UnusableAssetError("glTF is not read yet", code="asset_unsupported")
+        case "glb" | "gltf":
+            return gltf_reader.read(data, files, scene)
 
 
 _HOLLOW = b"v 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 1 0\nf 1 2 3 4\ng a\nf -4/-4/-4 -3 -2\nl 1 2\np 1\n"

@@ -3,32 +3,36 @@
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
-from itertools import product
-from typing import Protocol, Self
+from typing import Protocol
 
 import numpy as np
 
 from api_schemas.families import Meaning, SurfaceSpec, TextureSpec
 from api_schemas.lights import Light
+from api_schemas.maps import ColorMap
 from api_schemas.model_mesh import ModelMesh
 from api_schemas.scene import Node, Scene
 from api_schemas.surfaces.phong import PhongSpec
+from api_schemas.surfaces.unlit import UnlitSpec
 from worker.geometry import primitives
 from worker.geometry.mesh import Mesh
 from worker.geometry.model import Model, Part
+from worker.geometry.tangents import with_tangents
 from worker.geometry.transforms import Matrix, parent_from_node
 from worker.images.image import Image
 from worker.images.pyramids import mip_chain
 from worker.rendering.cache import ByteCache
-from worker.rendering.framing import Box
 from worker.rendering.model_changes import seen_parts
-from worker.rendering.pyrender_adapter import Drawable, UploadedMesh, View, delete_mesh, upload_mesh
-from worker.rendering.shading import Shading, shade
+from worker.rendering.pyrender_scene import Background, Drawable, View
+from worker.rendering.shading import Shading, shade, tangent_uv_set
 from worker.rendering.staging import PlacedModel, lights_of, view_of
 from worker.rendering.textures import Texture
+from worker.rendering.vertex_arrays import VertexArray
 
 TEXTURE_BYTES_MAX = 128 << 20
 MESH_BYTES_MAX = 64 << 20
+LARGEST_LIGHT = 5e36
+"""Of a picture, as in lib/picture.glsl."""
 _MATT_GREY = PhongSpec(technique="phong")
 
 
@@ -53,6 +57,7 @@ class BuiltScene:
     drawables: tuple[Drawable, ...]
     view: View
     lights: tuple[Light, ...]
+    background: Background | None
     triangles: int
     texels: int
     warnings: tuple[str, ...]
@@ -68,27 +73,13 @@ class _Placed:
     world_from_object: Matrix
 
 
-@dataclass(frozen=True, slots=True)
-class _Kept:
-    """A mesh in OpenGL, its size in space and its number of triangles."""
-
-    uploaded: UploadedMesh
-    box: Box
-    triangles: int
-
-    @classmethod
-    def of(cls, mesh: Mesh) -> Self:
-        box = (mesh.positions.min(axis=0), mesh.positions.max(axis=0))
-        return cls(upload_mesh(mesh), box, len(mesh.triangles))
-
-
 class SceneBuilder:
     """Keeps meshes and textures of earlier scenes, by content."""
 
     def __init__(self) -> None:
         """Begin with nothing in OpenGL."""
         self._textures = ByteCache[Texture](TEXTURE_BYTES_MAX, Texture.delete)
-        self._meshes = ByteCache[_Kept](MESH_BYTES_MAX, lambda kept: delete_mesh(kept.uploaded))
+        self._meshes = ByteCache[VertexArray](MESH_BYTES_MAX, VertexArray.delete)
 
     def build(
         self, scene: Scene, aspect: float, maker: TextureMaker, reader: ModelReader
@@ -117,25 +108,33 @@ class SceneBuilder:
                 make = partial(primitives.build, node.mesh)
                 placed.append(_Placed(key, make, node.surface or _MATT_GREY, matrix))
         kept = [self._kept(item) for item in placed]
-        drawables = [
-            Drawable(mesh.uploaded, self._shading(item.surface, maker), item.world_from_object)
-            for item, mesh in zip(placed, kept, strict=True)
-        ]
-        boxes = (
-            _in_world(mesh.box, item.world_from_object)
+        worn: dict[str, tuple[Shading, int]] = {}
+        drawables = []
+        for item, mesh in zip(placed, kept, strict=True):
+            key = item.surface.model_dump_json()
+            if key not in worn:
+                worn[key] = self._shading(item.surface, maker), len(worn) + 1
+            drawables.append(Drawable(mesh, worn[key][0], item.world_from_object, worn[key][1]))
+        vertices = (
+            (mesh.positions, item.world_from_object)
             for item, mesh in zip(placed, kept, strict=True)
         )
-        view = view_of(scene.camera, models, boxes, aspect)
+        view = view_of(scene.camera, models, vertices, aspect)
+        background = self._background(scene.background, maker)
+        shadings = [drawable.shading for drawable in drawables]
+        if background is not None and background.shading is not None:
+            shadings.append(background.shading)
         pictures = {
             picture.texture.number: picture.texture
-            for drawable in drawables
-            for picture in drawable.shading.pictures
+            for shading in shadings
+            for picture in shading.pictures
         }
         return BuiltScene(
             drawables=tuple(drawables),
             view=view,
+            background=background,
             lights=tuple(lights_of(scene.lights, models, view.world_from_camera)),
-            triangles=sum(mesh.triangles for mesh in kept),
+            triangles=sum(len(mesh.elements) for mesh in kept),
             texels=sum(texture.width * texture.height for texture in pictures.values()),
             warnings=tuple(
                 dict.fromkeys(warning for item in models for warning in item.model.warnings)
@@ -147,12 +146,17 @@ class SceneBuilder:
         self._textures.trim()
         self._meshes.trim()
 
-    def _kept(self, item: _Placed) -> _Kept:
-        def make() -> tuple[_Kept, int]:
-            mesh = item.mesh()
-            return _Kept.of(mesh), mesh.size_bytes
+    def _kept(self, item: _Placed) -> VertexArray:
+        uv_set = tangent_uv_set(item.surface)
 
-        return self._meshes.get(item.key, make)
+        def make() -> tuple[VertexArray, int]:
+            mesh = item.mesh()
+            if uv_set is not None:
+                mesh = with_tangents(mesh, uv_set)
+            uploaded = VertexArray.upload(mesh)
+            return uploaded, uploaded.size_bytes
+
+        return self._meshes.get((item.key, uv_set), make)
 
     def _shading(self, surface: SurfaceSpec, maker: TextureMaker) -> Shading:
         def texture_of(spec: TextureSpec, meaning: Meaning, *, levels: bool) -> Texture:
@@ -160,6 +164,16 @@ class SceneBuilder:
             return self._textures.get(key, lambda: _upload(maker(spec, meaning), levels))
 
         return shade(surface, texture_of)
+
+    def _background(
+        self, spec: list[float] | ColorMap | None, maker: TextureMaker
+    ) -> Background | None:
+        if spec is None:
+            return None
+        if isinstance(spec, ColorMap):
+            surface = UnlitSpec(technique="unlit", color=spec)
+            return Background(color=None, shading=self._shading(surface, maker))
+        return Background(color=tuple(min(value, LARGEST_LIGHT) for value in spec), shading=None)
 
 
 def _nodes(nodes: list[Node], world_from_parent: Matrix) -> Iterator[tuple[Node, Matrix]]:
@@ -184,12 +198,6 @@ def _parts(
 
 def _mesh_of(part: Part) -> Mesh:
     return part.mesh
-
-
-def _in_world(box: Box, world_from_object: Matrix) -> Box:
-    corners = np.array(list(product(*zip(*box, strict=True))))
-    turned = corners @ world_from_object[:3, :3].T + world_from_object[:3, 3]
-    return turned.min(axis=0), turned.max(axis=0)
 
 
 def _upload(image: Image, levels: bool) -> tuple[Texture, int]:

@@ -15,8 +15,8 @@ from api_schemas.lights import AmbientLight, DirectionalLight, Light, PointLight
 from worker.errors import RenderError
 from worker.geometry.model import Model, NamedCamera
 from worker.geometry.transforms import Matrix, clip_from_camera, orthonormal, world_from_camera
-from worker.rendering.framing import Box, frame, lamp
-from worker.rendering.pyrender_adapter import View
+from worker.rendering.framing import Placed, frame, lamp
+from worker.rendering.pyrender_scene import View
 
 Camera = PerspectiveCamera | OrthographicCamera | FramedCamera | ModelCamera
 
@@ -30,14 +30,14 @@ class PlacedModel:
 
 
 def view_of(
-    camera: Camera | None, models: Sequence[PlacedModel], boxes: Iterable[Box], aspect: float
+    camera: Camera | None, models: Sequence[PlacedModel], placed: Iterable[Placed], aspect: float
 ) -> View:
     """Return the eye.
 
     Args:
         camera: The request's.
         models: Where a model's camera is sought.
-        boxes: Bounds in world axes of all that is drawn, for a camera that frames it.
+        placed: Vertices of all that is drawn, for a camera that frames them.
         aspect: Width over height of the picture.
 
     Raises:
@@ -50,7 +50,8 @@ def view_of(
     if isinstance(camera, ModelCamera):
         return _view_of_model(camera, models, aspect)
     if isinstance(camera, FramedCamera):
-        camera = frame(camera, boxes, aspect)
+        framing = frame(camera, placed, aspect)
+        return View(framing.world_from_camera, framing.clip_from_camera, orthographic=False)
     return View(
         world_from_camera=world_from_camera(camera.pose),
         clip_from_camera=clip_from_camera(camera, aspect),
@@ -67,7 +68,7 @@ def lights_of(
     brought = [
         _in_world(light, item.world_from_model) for item in models for light in item.model.lights
     ]
-    return brought or lamp(*world_from_camera[:3, :3].T)
+    return brought or lamp(world_from_camera)
 
 
 def _view_of_model(camera: ModelCamera, models: Sequence[PlacedModel], aspect: float) -> View:

@@ -1,12 +1,14 @@
 """Meshes in OpenGL memory: one buffer of vertices, fixed attribute locations, one of indices."""
 
 import ctypes
+import functools
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from worker.geometry.mesh import UV_SETS_MAX, Mesh
+from worker.rendering.draw_order import is_convex
 from worker.rendering.gl_context import GL, check, floats
 
 _POSITION, _NORMAL, _TANGENT, _COLOUR, _UV = range(5)  # the locations of mesh.vert
@@ -14,7 +16,7 @@ _MODES = {"triangles": GL.GL_TRIANGLES, "lines": GL.GL_LINES, "points": GL.GL_PO
 _FLOAT_BYTES = 4
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False)
 class VertexArray:
     """A mesh in OpenGL.
 
@@ -22,13 +24,17 @@ class VertexArray:
         number: The vertex array object.
         buffers: Of vertices and of indices.
         mode: What the indices are: GL_TRIANGLES, GL_LINES or GL_POINTS.
-        count: How many indices there are.
+        positions: float32 (n, 3), as OpenGL holds them.
+        elements: uint32 (m, 3) of triangles, (m, 2) of lines, (m, 1) of points.
+        size_bytes: What it holds, in OpenGL and here.
     """
 
     number: int
     buffers: tuple[int, int]
     mode: int
-    count: int
+    positions: NDArray[np.float32]
+    elements: NDArray[np.uint32]
+    size_bytes: int
 
     @classmethod
     def upload(cls, mesh: Mesh) -> "VertexArray":
@@ -65,12 +71,38 @@ class VertexArray:
         GL.glBufferData(GL.GL_ELEMENT_ARRAY_BUFFER, rows.nbytes, rows, GL.GL_STATIC_DRAW)
         GL.glBindVertexArray(0)
         check("uploading a mesh")
-        return cls(number, (vertices, indices), _MODES[mesh.kind], rows.size)
+        positions = floats(mesh.positions)
+        return cls(
+            number=number,
+            buffers=(vertices, indices),
+            mode=_MODES[mesh.kind],
+            positions=positions,
+            elements=rows,
+            size_bytes=data.nbytes + 2 * rows.nbytes + positions.nbytes,
+        )
+
+    @functools.cached_property
+    def centre(self) -> NDArray[np.float64]:
+        """The middle of its bounding box, (3,)."""
+        low, high = self.positions.min(axis=0), self.positions.max(axis=0)
+        return 0.5 * low.astype(np.float64) + 0.5 * high.astype(np.float64)
+
+    @functools.cached_property
+    def convex(self) -> bool:
+        """Whether drawing inner sides before outer ones shows it right from everywhere."""
+        return self.has_sides and is_convex(self.positions, self.elements)
 
     @property
     def has_sides(self) -> bool:
         """Whether it has an inner and an outer side; lines and points have none."""
-        return bool(self.mode == _MODES["triangles"])
+        return bool(self.mode == GL.GL_TRIANGLES)
+
+    def face_normals(self) -> NDArray[np.float32]:
+        """Give the unit normal of each triangle in the object's frame, (m, 3); 0 without area."""
+        corners = self.positions[self.elements].astype(np.float64)
+        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+        return floats(np.divide(normals, lengths, out=normals, where=lengths > 0))
 
     def bind(self) -> None:
         """Make it what is drawn."""
@@ -80,7 +112,14 @@ class VertexArray:
 
     def draw(self) -> None:
         """Draw it all; it is bound."""
-        GL.glDrawElements(self.mode, self.count, GL.GL_UNSIGNED_INT, None)
+        GL.glDrawElements(self.mode, self.elements.size, GL.GL_UNSIGNED_INT, None)
+
+    def draw_in_order(self, elements: NDArray[np.uint32], stream: int) -> None:
+        """Draw elements of its own in another order, by way of a buffer for them; it is bound."""
+        GL.glBindBuffer(GL.GL_ELEMENT_ARRAY_BUFFER, stream)
+        GL.glBufferData(GL.GL_ELEMENT_ARRAY_BUFFER, elements.nbytes, elements, GL.GL_STREAM_DRAW)
+        GL.glDrawElements(self.mode, elements.size, GL.GL_UNSIGNED_INT, None)
+        GL.glBindBuffer(GL.GL_ELEMENT_ARRAY_BUFFER, self.buffers[1])
 
     def delete(self) -> None:
         """Free it."""

@@ -2,7 +2,7 @@
 
 import hashlib
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -57,15 +57,26 @@ class Studio:
         self, scene: dict[str, Any], size: tuple[int, int] = (32, 32), supersampling: int = 1
     ) -> Pixels:
         """Draw a scene given as JSON; float32 (height, width, 4)."""
+        return self.layers(scene, [], size, supersampling)["picture"]
+
+    def layers(
+        self,
+        scene: dict[str, Any],
+        names: Sequence[str],
+        size: tuple[int, int] = (32, 32),
+        supersampling: int = 1,
+    ) -> dict[str, Pixels]:
+        """Draw a scene with some layers; float32 (height, width, channels), by name."""
         rendering = self._render(
             Scene.model_validate_json(json.dumps(scene)),
-            RenderOutput(size=list(size), supersampling=supersampling),
+            RenderOutput(size=list(size), supersampling=supersampling, layers=list(names)),
             lambda spec, meaning: Image(self._arrays[spec.asset], meaning),
             lambda mesh: self.models[mesh.asset],
             lambda fraction, stage: self.reports.append((fraction, stage)),
         )
+        bands = list(rendering.bands)
         self.facts = rendering.timings | rendering.counts
-        return rendering.image.pixels
+        return {name: np.concatenate([band[name].pixels for band in bands]) for name in bands[0]}
 
     def poster(
         self, surface: dict[str, Any], size: tuple[int, int] = (32, 32), **more: Any

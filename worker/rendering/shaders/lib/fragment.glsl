@@ -1,3 +1,4 @@
+#include "lib/picture.glsl"
 #include "lib/surface_point.glsl"
 in vec3 vertex_position;
 in vec3 vertex_normal;
@@ -8,14 +9,6 @@ in vec2 vertex_uv_1;
 in vec2 vertex_uv_2;
 in vec2 vertex_uv_3;
 uniform vec4 eye;  // (0, 0, 0, 1), or the direction towards an orthographic camera and 0
-layout(location = 0) out vec4 color;
-
-const float LARGEST = 5e36;  // 64 samples of it, a pixel's, still add up to a number
-
-// Light that a picture can hold: the rest is cut off, and what is no number is dark.
-vec4 holdable(vec4 light) {
-    return mix(clamp(light, -LARGEST, LARGEST), vec4(0.0), isnan(light));
-}
 
 // Both sides of a surface are lit: the normal is turned to the side that is seen.
 SurfacePoint surface_point() {

@@ -43,3 +43,8 @@ vec4 shade(SurfacePoint point, Surface surface) {
     }
     return vec4(radiance, 1.0);
 }
+
+// The share of light that is reflected in all directions.
+vec3 albedo(Surface surface) {
+    return surface.diffuse_weight * surface.diffuse_color;
+}

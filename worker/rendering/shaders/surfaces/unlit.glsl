@@ -8,3 +8,7 @@ struct Surface {
 vec4 shade(SurfacePoint point, Surface surface) {
     return vec4(surface.color * point.color.rgb, 1.0);
 }
+
+vec3 albedo(Surface surface) {
+    return surface.color;
+}
