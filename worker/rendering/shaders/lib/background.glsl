@@ -8,6 +8,12 @@ SurfacePoint point_on_picture() {
     vec2 uv = (gl_FragCoord.xy + corner) / picture_size;
     vec3 towards_eye = vec3(0.0, 0.0, 1.0);
     return SurfacePoint(
-        vec3(0.0), towards_eye, towards_eye, vec4(1.0), vec4(1.0), vec2[4](uv, uv, uv, uv)
+        vec3(0.0),
+        towards_eye,
+        towards_eye,
+        towards_eye,
+        vec4(1.0),
+        vec4(1.0),
+        vec2[4](uv, uv, uv, uv)
     );
 }
