@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from api_schemas.surfaces.phong import PhongSpec
+from tests.worker.geometry.refusals import outcome
 from worker.errors import AssetMissingError, UnusableAssetError
 from worker.geometry import obj
 from worker.geometry.mesh import Mesh
@@ -237,12 +238,8 @@ def test_a_material_that_no_library_has_is_plain_and_warned_of() -> None:
 def test_damage_is_read_or_refused_by_name(noise: bytes, at: int, cut: int) -> None:
     whole = (ROOF + "vt 0 1\nvn 0 0 1\ns 1\ng a\n" + SLOPES + "f 1/1/1 2/1/1 -1//1\nl 1 2").encode()
     damaged = whole[:at] + noise + whole[at + cut :]
-    try:
-        model = read_model(damaged, {})
-    except UnusableAssetError as refusal:
-        assert refusal.code in ("asset_unusable", "asset_unsupported")
-    else:
-        assert all(np.isfinite(part.mesh.positions).all() for part in model.parts)
+
+    assert outcome(damaged, {}) in ("read", "asset_unusable", "asset_unsupported")
 
 
 @pytest.mark.corpus
