@@ -100,6 +100,8 @@ def check(data: bytes) -> Checked:
     tree = grow(document)
     check_storage(document)
     check_meshes(document)
+    if document.asset.version != "2.0":
+        warnings.append("it is made for a later glTF than 2.0")
     if document.animations:
         warnings.append("animations are not played: the model is shown at rest")
     return Checked(container, document, tree, (*container.warnings, *warnings))

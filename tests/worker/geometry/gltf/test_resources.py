@@ -142,7 +142,7 @@ def test_a_file_that_is_not_in_the_set_is_named() -> None:
         read(with_uri("deep/<i>box</i>.bin"), {"box.bin": b"1234"})
 
     assert caught.value.code == "asset_file_missing"
-    assert caught.value.message == "/buffers/0/uri: the file i?.bin is not in the set"
+    assert caught.value.message == "/buffers/0/uri: the file deep/?i?box?/i?.bin is not in the set"
 
 
 def test_the_binary_chunk_is_the_first_buffer_only() -> None:

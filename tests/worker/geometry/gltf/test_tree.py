@@ -112,3 +112,9 @@ def test_the_deepest_tree_that_is_taken_is_composed_to_its_end() -> None:
     (part,) = read(scene_of([*nodes, {"mesh": 0}]).glb(), {}).parts
 
     assert part.matrix[:3, 3].tolist() == [NODES_MAX - 1, 0, 0]
+
+
+def test_a_later_version_is_told() -> None:
+    builder = Builder(asset={"version": "2.1", "minVersion": "2.0"})
+
+    assert read(builder.gltf(), {}).warnings == ("it is made for a later glTF than 2.0",)
