@@ -8,7 +8,7 @@ import pytest
 
 from tests.worker.geometry.gltf.building import Builder
 from worker.errors import UnusableAssetError
-from worker.geometry.gltf.limits import NODES_MAX
+from worker.geometry.gltf.limits import ITEMS_MAX
 from worker.geometry.gltf.reader import read
 
 HALF = math.sqrt(0.5)
@@ -107,11 +107,11 @@ def test_a_scene_shows_only_roots() -> None:
 
 def test_the_deepest_tree_that_is_taken_is_composed_to_its_end() -> None:
     nodes: list[dict[str, Any]] = [
-        {"children": [i + 1], "translation": [1, 0, 0]} for i in range(NODES_MAX - 1)
+        {"children": [i + 1], "translation": [1, 0, 0]} for i in range(ITEMS_MAX - 1)
     ]
     (part,) = read(scene_of([*nodes, {"mesh": 0}]).glb(), {}).parts
 
-    assert part.matrix[:3, 3].tolist() == [NODES_MAX - 1, 0, 0]
+    assert part.matrix[:3, 3].tolist() == [ITEMS_MAX - 1, 0, 0]
 
 
 def test_a_later_version_is_told() -> None:
