@@ -51,6 +51,7 @@ def read(data: bytes, files: Mapping[str, bytes], scene: int | None = None) -> M
 
     Raises:
         AssetMissingError: A file it speaks of is not in `files` (`asset_file_missing`).
+        RenderError: It has no such scene (`model_part_unknown`).
         UnusableAssetError: `asset_unusable`, `asset_unsupported` or `asset_too_large`, with the
             place in the document.
     """

@@ -92,8 +92,11 @@ def _elements(
     count = document.accessors[primitive.attributes["POSITION"]].count
     if primitive.indices is None:
         return assemble(primitive.mode, np.arange(count)), None
-    indices = accessors.raw(primitive.indices)[:, 0].astype(np.int64)
+    stored = accessors.raw(primitive.indices)[:, 0]
+    indices = stored.astype(np.int64)
     highest = int(indices.max())
+    if highest == np.iinfo(stored.dtype).max:
+        raise unusable(f"{place}/indices", f"index {highest} would restart the primitive")
     if highest >= count:
         position = int(np.argmax(indices))
         raise unusable(f"{place}/indices", f"index {position} is {highest}, not below {count}")

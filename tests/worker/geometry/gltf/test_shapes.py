@@ -222,6 +222,15 @@ def test_an_index_beyond_the_vertices_is_refused_where_it_stands() -> None:
         read(builder.glb(), {})
 
 
+def test_the_index_that_would_restart_a_primitive_is_refused() -> None:
+    builder = Builder()
+    builder.mesh(np.zeros((65536, 3)), [0, 1, 65535])
+    builder.json |= shown(0)
+
+    with pytest.raises(UnusableAssetError, match="restart"):
+        read(builder.glb(), {})
+
+
 @pytest.mark.parametrize(
     ("attributes", "word"),
     [

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from tests.worker.geometry.gltf.building import Builder
-from worker.errors import UnusableAssetError
+from worker.errors import RenderError, UnusableAssetError
 from worker.geometry.gltf.limits import ITEMS_MAX
 from worker.geometry.gltf.reader import read
 
@@ -20,9 +20,9 @@ def scene_of(nodes: list[dict[str, Any]], **members: Any) -> Builder:
     return builder
 
 
-def refused(builder: Builder, scene: int | None = None) -> str:
+def refused(builder: Builder) -> str:
     with pytest.raises(UnusableAssetError) as caught:
-        read(builder.glb(), {}, scene)
+        read(builder.glb(), {})
     return caught.value.message
 
 
@@ -66,7 +66,9 @@ def test_the_scene_is_the_one_asked_for_else_the_files_own_else_its_first() -> N
     assert seen() == ["a"]
     del builder.json["scenes"]
     assert seen() == ["a", "b", "c"]
-    assert "no scene 0" in refused(builder, 0)
+    with pytest.raises(RenderError, match="0 scenes and no scene 0") as caught:
+        seen(0)
+    assert caught.value.code == "model_part_unknown"
 
 
 @pytest.mark.parametrize(
