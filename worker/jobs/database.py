@@ -2,7 +2,7 @@
 
 import sqlite3
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Final
@@ -25,9 +25,14 @@ class Database:
     def __init__(self, path: Path) -> None:
         # SQLite's own wait for a lock sleeps up to 100 ms; in one process a lock is fair and wakes.
         self._write_lock = threading.Lock()
+        self._heard: list[Callable[[], None]] = []
         self._readers = _engine(path, "FULL", "BEGIN")
         self._writer = _engine(path, "FULL", "BEGIN IMMEDIATE")
         self._quick_writer = _engine(path, "NORMAL", "BEGIN IMMEDIATE")
+
+    def on_write(self, hear: Callable[[], None]) -> None:
+        """Have something called after every transaction that changed the records, by its thread."""
+        self._heard.append(hear)
 
     @contextmanager
     def reading(self) -> Iterator[Connection]:
@@ -54,6 +59,8 @@ class Database:
                 if getattr(error.orig, "sqlite_errorcode", None) == sqlite3.SQLITE_FULL:
                     raise StorageFullError("the disk is full") from error
                 raise
+        for hear in self._heard:
+            hear()
 
     def close(self) -> None:
         """Close every connection; the last one folds the write-ahead log into the database."""

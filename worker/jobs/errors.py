@@ -4,6 +4,7 @@ JobsError
 ├── QueueFullError        too much is waiting; carries the seconds after which to try again
 ├── DrainingError         the engine is stopping and takes nothing new
 ├── StorageFullError      the disk that holds the data folder is full
+├── KeyReusedError        an idempotency key came with another body before
 ├── DataFolderInUseError  another service owns the data folder
 ├── SlotError             a child could not be started or warmed
 └── MeasuringError        an upload cannot be used; carries the failure as data
@@ -35,6 +36,10 @@ class DrainingError(JobsError):
 
 class StorageFullError(JobsError):
     """There is no room left for records or files."""
+
+
+class KeyReusedError(JobsError):
+    """An idempotency key stands for another request already."""
 
 
 class DataFolderInUseError(JobsError):

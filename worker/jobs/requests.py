@@ -3,31 +3,22 @@
 import math
 import time
 import uuid
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Collection
 from typing import Any, Final
 
 from sqlalchemy import Connection, Row, Select, and_, case, func, insert, or_, select, update
 
 from worker.jobs.database import Database
 from worker.jobs.errors import QueueFullError
-from worker.jobs.job import PRIORITIES, Job, Priority, State
+from worker.jobs.idempotency import Key, answered, remember
+from worker.jobs.intake import IsReusable, Request, joinable, new_work
+from worker.jobs.job import PRIORITIES, Job, State
 from worker.jobs.schema import jobs, work
 
 RECENT: Final = 32
+MOST_IDS: Final = 1000
+"""In one question: SQLite takes 32766 parameters."""
 LARGEST_SEQUENCE: Final = 2**63 - 1
-
-
-@dataclass(frozen=True, slots=True)
-class Request:
-    """What a caller asks for."""
-
-    tenant: str
-    kind: str
-    body: dict[str, Any]
-    digest: str
-    priority: Priority
-    time_limit_seconds: float
 
 
 class Requests:
@@ -46,25 +37,32 @@ class Requests:
         *,
         queue_limit: int,
         slots: int,
-        is_reusable: Callable[[str, str | None], bool],
+        is_reusable: IsReusable,
     ) -> None:
         self._database = database
         self._queue_limit = queue_limit
         self._slots = slots
         self._is_reusable = is_reusable
 
-    def submit(self, request: Request) -> Job:
+    def submit(self, request: Request, key: Key | None = None) -> Job:
         """Record a job, joined to work that is under way or done, or else to new work.
+
+        With a key that was sent before it answers the job that was recorded then.
 
         Raises:
             QueueFullError: it would be new work, and too much is waiting.
+            KeyReusedError: the key came with another body before.
         """
         job_id, now = uuid.uuid4().hex, time.time()
         with self._database.writing() as connection:
+            if key is not None and (earlier := _replayed(connection, request.tenant, key)):
+                return earlier
             work_id = self._joinable(connection, request)
             if work_id is None:
                 self._require_room(connection)
-                work_id = _new_work(connection, request, now)
+                [new] = new_work([request], now, in_batch=False)
+                connection.execute(insert(work), new)
+                work_id = new["id"]
             connection.execute(
                 insert(jobs).values(
                     id=job_id,
@@ -74,8 +72,28 @@ class Requests:
                     created=now,
                 )
             )
+            if key is not None:
+                remember(connection, request.tenant, key, job_id)
             row = connection.execute(_JOBS.where(jobs.c.id == job_id)).one()
         return _job(row)
+
+    def replayed(self, tenant: str, key: Key) -> Job | None:
+        """The job that a key stands for; None if it is new.
+
+        Raises:
+            KeyReusedError: the key came with another body before.
+        """
+        with self._database.reading() as connection:
+            return _replayed(connection, tenant, key)
+
+    def look(self, job_ids: Collection[str]) -> dict[str, Job]:
+        """Those of the jobs that exist, of whatever tenant, by id."""
+        ids, found = list(job_ids), list[Job]()
+        with self._database.reading() as connection:
+            for first in range(0, len(ids), MOST_IDS):
+                some = jobs.c.id.in_(ids[first : first + MOST_IDS])
+                found += map(_job, connection.execute(_JOBS.where(some)))
+        return {job.id: job for job in found}
 
     def get(self, tenant: str, job_id: str) -> Job | None:
         """One job of the tenant."""
@@ -113,7 +131,7 @@ class Requests:
             row = connection.execute(_JOBS.where(is_this)).first()
             if row is None:
                 return None
-            if _job(row).state in ("queued", "running"):
+            if row.cancelled is None and row.state in ("queued", "running"):
                 connection.execute(update(jobs).where(is_this).values(cancelled=now))
                 wanted = select(jobs.c.id).where(
                     jobs.c.work_id == row.work_id, jobs.c.cancelled.is_(None)
@@ -129,32 +147,27 @@ class Requests:
 
     def _joinable(self, connection: Connection, request: Request) -> str | None:
         """The id of work of the same tenant and digest that is under way or has a good result."""
-        same = and_(work.c.tenant == request.tenant, work.c.digest == request.digest)
-        newest = connection.execute(
-            select(work.c.id, work.c.state, work.c.priority, work.c.fingerprint)
-            .where(same, work.c.state.in_(("queued", "running", "succeeded")))
-            .order_by(work.c.sequence.desc())
-            .limit(1)
-        ).first()
+        found = joinable(connection, request.tenant, [request.digest], self._is_reusable)
+        newest = found.get(request.digest)
         if newest is None:
             return None
-        if newest.state == "succeeded":
-            return newest.id if self._is_reusable(newest.id, newest.fingerprint) else None
         urgency = PRIORITIES.index(request.priority)
-        if urgency < newest.priority:
+        if newest.state != "succeeded" and urgency < newest.priority:
             connection.execute(update(work).where(work.c.id == newest.id).values(priority=urgency))
         return str(newest.id)
 
     def _require_room(self, connection: Connection) -> None:
         waiting = connection.execute(
-            select(func.count()).select_from(work).where(work.c.state == "queued")
+            select(func.count())
+            .select_from(work)
+            .where(work.c.state == "queued", work.c.in_batch.is_(False))
         ).scalar_one()
         if waiting >= self._queue_limit:
-            seconds_each = _seconds_of_recent_work(connection)
+            seconds_each = seconds_of_recent_work(connection)
             raise QueueFullError(waiting, max(1, math.ceil(seconds_each / self._slots)))
 
 
-def _seconds_of_recent_work(connection: Connection) -> float:
+def seconds_of_recent_work(connection: Connection) -> float:
     """Mean run time of what finished last; if nothing did, how long something has been running."""
     ran = (
         select((work.c.finished - work.c.started).label("seconds"))
@@ -170,25 +183,10 @@ def _seconds_of_recent_work(connection: Connection) -> float:
     return float(mean or 0.0)
 
 
-def _new_work(connection: Connection, request: Request, now: float) -> str:
-    work_id = uuid.uuid4().hex
-    connection.execute(
-        insert(work).values(
-            id=work_id,
-            tenant=request.tenant,
-            digest=request.digest,
-            kind=request.kind,
-            body=request.body,
-            priority=PRIORITIES.index(request.priority),
-            time_limit_seconds=request.time_limit_seconds,
-            state="queued",
-            attempt=0,
-            crashes=0,
-            progress=0.0,
-            created=now,
-        )
-    )
-    return work_id
+def _replayed(connection: Connection, tenant: str, key: Key) -> Job | None:
+    job_id = answered(connection, tenant, key)
+    row = connection.execute(_JOBS.where(jobs.c.tenant == tenant, jobs.c.id == job_id)).first()
+    return None if row is None else _job(row)
 
 
 def _jobs_with_work() -> Select[Any]:
@@ -215,6 +213,7 @@ def _jobs_with_work() -> Select[Any]:
         jobs.c.work_id,
         *(work.c[name] for name in ("kind", "digest", "state", "attempt", "progress", "stage")),
         *(work.c[name] for name in ("started", "finished", "failure", "facts")),
+        work.c.estimate_seconds,
         case((work.c.state == "queued", in_front)).label("in_front"),
     ).join(work, work.c.id == jobs.c.work_id)
 
@@ -240,5 +239,6 @@ def _job(row: Row[Any]) -> Job:
         failure=row.failure if state == "failed" else None,
         facts=row.facts if state == "succeeded" else None,
         position=row.in_front + 1 if state == "queued" else None,
+        estimate_seconds=row.estimate_seconds,
         work_id=row.work_id,
     )
