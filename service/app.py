@@ -16,9 +16,33 @@ from api_schemas.version import VERSION
 from service import error_handlers
 from service.headers import SameOriginWrites, SecurityHeaders
 from service.openapi_document import document
-from service.routes import assets, front, health, jobs, renders, techniques, textures, validate
+from service.routes import (
+    assets,
+    batches,
+    events,
+    front,
+    health,
+    jobs,
+    renders,
+    techniques,
+    textures,
+    validate,
+)
 from service.settings import Settings
 from worker.jobs.engine import EmbeddedEngine
+
+ROUTES = (
+    front,
+    textures,
+    renders,
+    batches,
+    validate,
+    jobs,
+    events,
+    assets,
+    techniques,
+    health,
+)
 
 EXPOSED = (
     "Content-Location",
@@ -32,6 +56,9 @@ EXPOSED = (
 
 MEASURED_AT_ONCE = 2
 """Uploads wait their turn here, so that they do not take all threads from everything else."""
+
+BATCHES_AT_ONCE = 1
+"""So do batches: to look into a thousand requests takes seconds, in threads that share one core."""
 
 
 def create_app(settings: Settings, engine: EmbeddedEngine | None = None) -> FastAPI:
@@ -58,7 +85,8 @@ def create_app(settings: Settings, engine: EmbeddedEngine | None = None) -> Fast
     app.state.engine = engine
     app.state.drained = threading.Event()
     app.state.measuring = CapacityLimiter(MEASURED_AT_ONCE)
-    for resource in (front, textures, renders, validate, jobs, assets, techniques, health):
+    app.state.batching = CapacityLimiter(BATCHES_AT_ONCE)
+    for resource in ROUTES:
         app.include_router(resource.router)
     error_handlers.install(app)
     app.add_middleware(SameOriginWrites, allowed=settings.cors_origins)

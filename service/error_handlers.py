@@ -15,7 +15,13 @@ from api_schemas.problems import Obstruction
 from service.pointers import told
 from service.problems import ProblemError
 from worker.jobs.child import FULL_DISK
-from worker.jobs.errors import DrainingError, QueueFullError, SlotError, StorageFullError
+from worker.jobs.errors import (
+    DrainingError,
+    KeyReusedError,
+    QueueFullError,
+    SlotError,
+    StorageFullError,
+)
 
 METHODS: Final = ("GET", "HEAD", "POST", "PUT", "PATCH", "DELETE")
 SOON: Final = {"Retry-After": "5"}
@@ -33,6 +39,7 @@ def install(app: FastAPI) -> None:
         RequestValidationError: _parameters,
         QueueFullError: _queue_full,
         DrainingError: _draining,
+        KeyReusedError: _key_reused,
         StorageFullError: _storage_full,
         OSError: _no_disk,
         SlotError: _no_slot,
@@ -85,6 +92,10 @@ async def _queue_full(_request: Request, error: QueueFullError) -> Response:
 
 async def _draining(_request: Request, _error: DrainingError) -> Response:
     return ProblemError("draining", headers=SOON).response()
+
+
+async def _key_reused(_request: Request, error: KeyReusedError) -> Response:
+    return ProblemError("idempotency_key_reused", str(error)).response()
 
 
 async def _storage_full(_request: Request, _error: StorageFullError) -> Response:
