@@ -1,20 +1,18 @@
 """The callers' side of the records: submit, look, list and cancel jobs."""
 
-import math
 import time
 import uuid
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, Final
 
-from sqlalchemy import Connection, Row, Select, and_, case, func, insert, or_, select, update
+from sqlalchemy import Connection, Row, Select, and_, func, insert, select, update
 
 from worker.jobs.database import Database
-from worker.jobs.errors import QueueFullError
 from worker.jobs.job import PRIORITIES, Job, Priority, State
+from worker.jobs.room import Room
 from worker.jobs.schema import jobs, work
 
-RECENT: Final = 32
 LARGEST_SEQUENCE: Final = 2**63 - 1
 
 
@@ -35,8 +33,7 @@ class Requests:
 
     Args:
         database: the records.
-        queue_limit: how much work may wait.
-        slots: how much work is done at a time.
+        room: how much may wait.
         is_reusable: whether the result of work, given its id and fingerprint, still serves.
     """
 
@@ -44,26 +41,26 @@ class Requests:
         self,
         database: Database,
         *,
-        queue_limit: int,
-        slots: int,
+        room: Room,
         is_reusable: Callable[[str, str | None], bool],
     ) -> None:
         self._database = database
-        self._queue_limit = queue_limit
-        self._slots = slots
+        self._room = room
         self._is_reusable = is_reusable
 
     def submit(self, request: Request) -> Job:
         """Record a job, joined to work that is under way or done, or else to new work.
 
+        The caller flushes the records before it promises anything.
+
         Raises:
             QueueFullError: it would be new work, and too much is waiting.
         """
         job_id, now = uuid.uuid4().hex, time.time()
-        with self._database.writing() as connection:
+        with self._database.writing(durably=False) as connection:
             work_id = self._joinable(connection, request)
             if work_id is None:
-                self._require_room(connection)
+                self._room.require(connection, request.tenant, request.priority)
                 work_id = _new_work(connection, request, now)
             connection.execute(
                 insert(jobs).values(
@@ -74,15 +71,15 @@ class Requests:
                     created=now,
                 )
             )
-            row = connection.execute(_JOBS.where(jobs.c.id == job_id)).one()
-        return _job(row)
+            [job] = _as_jobs(connection, connection.execute(_JOBS.where(jobs.c.id == job_id)).all())
+        return job
 
     def get(self, tenant: str, job_id: str) -> Job | None:
         """One job of the tenant."""
         query = _JOBS.where(jobs.c.tenant == tenant, jobs.c.id == job_id)
         with self._database.reading() as connection:
-            row = connection.execute(query).first()
-        return None if row is None else _job(row)
+            found = _as_jobs(connection, connection.execute(query).all())
+        return found[0] if found else None
 
     def list(
         self, tenant: str, *, cursor: str | None, limit: int, state: str | None
@@ -101,9 +98,9 @@ class Requests:
             query = query.where(jobs.c.cancelled.is_(None), work.c.state == state)
         with self._database.reading() as connection:
             rows = connection.execute(query.order_by(jobs.c.sequence.desc()).limit(limit + 1)).all()
-        page = rows[:limit]
-        more = f"{page[-1].job_sequence:016x}" if page and len(rows) > limit else None
-        return [_job(row) for row in page], more
+            page = _as_jobs(connection, rows[:limit])
+        more = f"{rows[limit - 1].job_sequence:016x}" if page and len(rows) > limit else None
+        return page, more
 
     def cancel(self, tenant: str, job_id: str) -> Job | None:
         """Cancel a job that is not finished, and its work unless another job wants it."""
@@ -113,7 +110,7 @@ class Requests:
             row = connection.execute(_JOBS.where(is_this)).first()
             if row is None:
                 return None
-            if _job(row).state in ("queued", "running"):
+            if row.cancelled is None and row.state in ("queued", "running"):
                 connection.execute(update(jobs).where(is_this).values(cancelled=now))
                 wanted = select(jobs.c.id).where(
                     jobs.c.work_id == row.work_id, jobs.c.cancelled.is_(None)
@@ -124,8 +121,8 @@ class Requests:
                         .where(work.c.id == row.work_id)
                         .values(state="cancelled", stage=None, finished=now)
                     )
-            row = connection.execute(_JOBS.where(is_this)).one()
-        return _job(row)
+            [job] = _as_jobs(connection, connection.execute(_JOBS.where(is_this)).all())
+        return job
 
     def _joinable(self, connection: Connection, request: Request) -> str | None:
         """The id of work of the same tenant and digest that is under way or has a good result."""
@@ -144,30 +141,6 @@ class Requests:
         if urgency < newest.priority:
             connection.execute(update(work).where(work.c.id == newest.id).values(priority=urgency))
         return str(newest.id)
-
-    def _require_room(self, connection: Connection) -> None:
-        waiting = connection.execute(
-            select(func.count()).select_from(work).where(work.c.state == "queued")
-        ).scalar_one()
-        if waiting >= self._queue_limit:
-            seconds_each = _seconds_of_recent_work(connection)
-            raise QueueFullError(waiting, max(1, math.ceil(seconds_each / self._slots)))
-
-
-def _seconds_of_recent_work(connection: Connection) -> float:
-    """Mean run time of what finished last; if nothing did, how long something has been running."""
-    ran = (
-        select((work.c.finished - work.c.started).label("seconds"))
-        .where(work.c.state == "succeeded")
-        .order_by(work.c.sequence.desc())
-        .limit(RECENT)
-        .subquery()
-    )
-    mean = connection.execute(select(func.avg(ran.c.seconds))).scalar()
-    if mean is None:
-        running = select(func.max(time.time() - work.c.started)).where(work.c.state == "running")
-        mean = connection.execute(running).scalar()
-    return float(mean or 0.0)
 
 
 def _new_work(connection: Connection, request: Request, now: float) -> str:
@@ -193,18 +166,6 @@ def _new_work(connection: Connection, request: Request, now: float) -> str:
 
 def _jobs_with_work() -> Select[Any]:
     """Everything a `Job` tells, one row for each."""
-    ahead = work.alias("ahead")
-    is_ahead = or_(
-        ahead.c.priority < work.c.priority,
-        and_(ahead.c.priority == work.c.priority, ahead.c.sequence < work.c.sequence),
-    )
-    in_front = (
-        select(func.count())
-        .select_from(ahead)
-        .where(ahead.c.state == "queued", is_ahead)
-        .correlate(work)
-        .scalar_subquery()
-    )
     return select(
         jobs.c.sequence.label("job_sequence"),
         jobs.c.id,
@@ -215,14 +176,42 @@ def _jobs_with_work() -> Select[Any]:
         jobs.c.work_id,
         *(work.c[name] for name in ("kind", "digest", "state", "attempt", "progress", "stage")),
         *(work.c[name] for name in ("started", "finished", "failure", "facts")),
-        case((work.c.state == "queued", in_front)).label("in_front"),
     ).join(work, work.c.id == jobs.c.work_id)
 
 
 _JOBS: Final = _jobs_with_work()
 
 
-def _job(row: Row[Any]) -> Job:
+def _line() -> Select[Any]:
+    """Waiting work with its place: by priority, and in each the tenants in turn."""
+    turn = func.row_number().over(
+        partition_by=(work.c.priority, work.c.tenant), order_by=work.c.sequence
+    )
+    waiting = (
+        select(work.c.id, work.c.priority, work.c.sequence, turn.label("turn"))
+        .where(work.c.state == "queued")
+        .subquery()
+    )
+    place = func.row_number().over(
+        order_by=(waiting.c.priority, waiting.c.turn, waiting.c.sequence)
+    )
+    return select(waiting.c.id, place.label("place"))
+
+
+_LINE: Final = _line().subquery()
+
+
+def _as_jobs(connection: Connection, rows: Sequence[Row[Any]]) -> list[Job]:
+    """The jobs of some rows, with their places in the queue."""
+    waiting = {row.work_id for row in rows if row.state == "queued"}
+    places: dict[str, int] = {}
+    if waiting:
+        query = select(_LINE.c.id, _LINE.c.place).where(_LINE.c.id.in_(waiting))
+        places = {row.id: row.place for row in connection.execute(query)}
+    return [_job(row, places.get(row.work_id)) for row in rows]
+
+
+def _job(row: Row[Any], place: int | None) -> Job:
     state: State = row.state if row.cancelled is None else "cancelled"
     return Job(
         id=row.id,
@@ -239,6 +228,6 @@ def _job(row: Row[Any]) -> Job:
         finished=row.finished if row.cancelled is None else row.cancelled,
         failure=row.failure if state == "failed" else None,
         facts=row.facts if state == "succeeded" else None,
-        position=row.in_front + 1 if state == "queued" else None,
+        position=place if state == "queued" else None,
         work_id=row.work_id,
     )
