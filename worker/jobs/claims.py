@@ -1,7 +1,8 @@
 """The engine's side of the records: claim work, tell how it goes, settle how it ended.
 
 Every change names the attempt it belongs to and is refused when the work has moved on: what a child
-did for cancelled or repeated work can do no harm, however late it comes.
+did for cancelled or repeated work can do no harm, however late it comes. None of them is flushed: a
+power cut that undoes one has the work done again, to the same bytes.
 """
 
 import time
@@ -71,9 +72,7 @@ class Claims:
             row = connection.execute(select(work).where(is_this)).one()
             attempt, now = row.attempt + 1, time.time()
             connection.execute(
-                update(work)
-                .where(is_this)
-                .values(state="running", attempt=attempt, started=now)
+                update(work).where(is_this).values(state="running", attempt=attempt, started=now)
             )
         return Claim(
             work_id=row.id,
@@ -102,8 +101,7 @@ class Claims:
     ) -> bool:
         """Record success and publish the result inside the fence; False when it came too late.
 
-        The record is not flushed: a power cut that undoes it has the work done again, to the same
-        bytes. The file is to be on the disk before, since some other flush may take the record.
+        The file is to be on the disk already, since any later flush takes the record there.
         """
         success = _ended("succeeded") | {
             "facts": facts,
@@ -119,13 +117,13 @@ class Claims:
 
     def fail(self, claim: Claim, why: Failure) -> None:
         """Record a failure that another attempt would only repeat."""
-        with self._database.writing() as connection:
+        with self._database.writing(durably=False) as connection:
             _change(connection, claim, _ended("failed") | {"failure": why})
 
     def crash(self, claim: Claim, why: Failure) -> None:
         """Put work back whose worker died; after the third time it has failed."""
         is_this = work.c.id == claim.work_id
-        with self._database.writing() as connection:
+        with self._database.writing(durably=False) as connection:
             crashes = 1 + connection.execute(select(work.c.crashes).where(is_this)).scalar_one()
             end = _WAITING if crashes < MOST_CRASHES else _ended("failed") | {"failure": why}
             _change(connection, claim, end | {"crashes": crashes})

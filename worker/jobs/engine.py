@@ -5,6 +5,7 @@ import fcntl
 import threading
 import time
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import IO, Any
 
@@ -19,11 +20,15 @@ from worker.jobs.forkserver import start_forkserver
 from worker.jobs.job import FINAL_STATES, Job, Priority, State
 from worker.jobs.line import Line
 from worker.jobs.measuring import Measuring
+from worker.jobs.meters import Meters
 from worker.jobs.migrations import upgrade
 from worker.jobs.requests import Request, Requests
 from worker.jobs.results import Results
+from worker.jobs.room import Room
+from worker.jobs.run_times import RunTimes
+from worker.jobs.settling import Desk
 from worker.jobs.slot import Slot
-from worker.jobs.slot_thread import Desk, SlotThread
+from worker.jobs.slot_thread import SlotThread
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +52,8 @@ class EmbeddedEngine:
         data: folder of records, results, assets and caches; created if missing.
         slots: how much work is done at a time.
         queue_limit: how much work may wait.
+        tenant_queue_limit: how much of it may be one tenant's.
+        recycle_after: how many jobs a child does before a fresh one takes its place.
         time_limit_seconds: what a job may take unless it says otherwise.
         memory_limit_bytes: what a child may hold resident.
         executor: name of the module that does jobs.
@@ -61,6 +68,8 @@ class EmbeddedEngine:
         *,
         slots: int = 2,
         queue_limit: int = 256,
+        tenant_queue_limit: int = 256,
+        recycle_after: int = 1000,
         time_limit_seconds: float = 600,
         memory_limit_bytes: int = 4 << 30,
         executor: str = "worker.run_job",
@@ -73,21 +82,41 @@ class EmbeddedEngine:
         self._time_limit_seconds = time_limit_seconds
         self._draining = threading.Event()
         self._bell = Bell()
+        self.meters = Meters()
         self._database = Database(data / "jobs.sqlite")
         self._results = Results(data / "results")
         self.assets = Assets(data / "assets", self._database)
-        self._claims = Claims(self._database)
+        self._claims = Claims(self._database, slots)
         self._line = Line(self._claims)
-        self._requests = Requests(
-            self._database, queue_limit=queue_limit, slots=slots, is_reusable=self._is_reusable
+        self._run_times = RunTimes()
+        room = Room(
+            queue_limit=queue_limit,
+            tenant_limit=tenant_queue_limit,
+            slots=slots,
+            run_times=self._run_times,
         )
-        desk = Desk(self._line, self._claims, self._results, self.assets, self._bell.ring)
+        self._requests = Requests(
+            self._database, room=room, meters=self.meters, is_reusable=self._is_reusable
+        )
+        desk = Desk(
+            line=self._line,
+            claims=self._claims,
+            results=self._results,
+            assets=self.assets,
+            run_times=self._run_times,
+            meters=self.meters,
+            settled=self._bell.ring,
+            warming=threading.Lock(),
+        )
 
         def slot(module: str) -> Slot:
             return Slot(module, self._environment, memory_limit_bytes=memory_limit_bytes)
 
         self._lock: IO[bytes] | None = None
-        self._threads = [SlotThread(f"slot-{n}", slot(executor), desk) for n in range(slots)]
+        self._threads = [
+            SlotThread(f"slot-{n}", partial(slot, executor), desk, recycle_after)
+            for n in range(slots)
+        ]
         self._measuring = Measuring(slot(measurer), self.assets.folder)
 
     def start(self) -> None:
@@ -101,6 +130,7 @@ class EmbeddedEngine:
         self._lock = lock_folder(self._data)
         upgrade(self._database)
         self._claims.recover()
+        self._run_times.recall(self._database)
         self._results.sweep()
         self.assets.sweep()
         keep_only(Path(self._environment["NUMBA_CACHE_DIR"]))
@@ -152,6 +182,7 @@ class EmbeddedEngine:
         job = self._requests.submit(Request(tenant, kind, body, digest, priority, limit))
         if job.state == "queued":
             self._line.announce()
+        self._database.flush()  # a slot is at it already
         return job
 
     def get(self, tenant: str, job_id: str) -> Job | None:

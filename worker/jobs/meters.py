@@ -31,10 +31,16 @@ class Meters:
             registry=self.registry,
         )
         self._refused = Counter(
-            "texloom_jobs_refused", "Jobs refused for want of room.", ("why",), registry=self.registry
+            "texloom_jobs_refused",
+            "Jobs refused for want of room.",
+            ("why",),
+            registry=self.registry,
         )
         self._ended = Counter(
-            "texloom_work_ended", "Attempts at work.", ("technique", "outcome"), registry=self.registry
+            "texloom_work_ended",
+            "Attempts at work.",
+            ("technique", "outcome"),
+            registry=self.registry,
         )
         self._waited = _seconds("texloom_work_wait", "From request to start.", self.registry)
         self._ran = _seconds("texloom_work_run", "From start to end.", self.registry)

@@ -10,6 +10,7 @@ from sqlalchemy import Connection, Row, Select, and_, func, insert, select, upda
 
 from worker.jobs.database import Database
 from worker.jobs.job import PRIORITIES, Job, Priority, State
+from worker.jobs.meters import Found, Meters
 from worker.jobs.room import Room
 from worker.jobs.schema import jobs, work
 
@@ -34,6 +35,7 @@ class Requests:
     Args:
         database: the records.
         room: how much may wait.
+        meters: hear what was accepted and what was not.
         is_reusable: whether the result of work, given its id and fingerprint, still serves.
     """
 
@@ -42,10 +44,12 @@ class Requests:
         database: Database,
         *,
         room: Room,
+        meters: Meters,
         is_reusable: Callable[[str, str | None], bool],
     ) -> None:
         self._database = database
         self._room = room
+        self._meters = meters
         self._is_reusable = is_reusable
 
     def submit(self, request: Request) -> Job:
@@ -59,6 +63,7 @@ class Requests:
         job_id, now = uuid.uuid4().hex, time.time()
         with self._database.writing(durably=False) as connection:
             work_id = self._joinable(connection, request)
+            is_new = work_id is None
             if work_id is None:
                 self._room.require(connection, request.tenant, request.priority)
                 work_id = _new_work(connection, request, now)
@@ -72,6 +77,8 @@ class Requests:
                 )
             )
             [job] = _as_jobs(connection, connection.execute(_JOBS.where(jobs.c.id == job_id)).all())
+        found: Found = "new" if is_new else "finished" if job.state == "succeeded" else "shared"
+        self._meters.submitted(request.priority, found)
         return job
 
     def get(self, tenant: str, job_id: str) -> Job | None:

@@ -1,4 +1,7 @@
-"""How much may wait, and when to come back where that is too much."""
+"""How much may wait, and when to come back where that is too much.
+
+Batches have a bound of their own and do not count: who sent one may still ask for a picture.
+"""
 
 import math
 
@@ -37,8 +40,10 @@ class Room:
             QueueFullError: too much is waiting altogether.
         """
         query = (
-            select(work.c.tenant, func.count()).where(work.c.state == "queued")
-        ).group_by(work.c.tenant)
+            select(work.c.tenant, func.count())
+            .where(work.c.state == "queued", work.c.in_batch.is_(False))
+            .group_by(work.c.tenant)
+        )
         waiting = {row[0]: row[1] for row in connection.execute(query)}
         slots = slots_for(PRIORITIES.index(priority), self._slots)
         # A place becomes free when work begins, which is when other work ends.

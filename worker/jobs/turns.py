@@ -46,7 +46,7 @@ class Turns:
                 of_tenant[tenant] = of_tenant.get(tenant, 0) + count
         with self._lock:
             for priority, heads in waiting.items():
-                if heads and running[priority] < slots_for(priority, self._slots):
+                if heads and self._may_begin(priority, running[priority]):
                     tenant = min(
                         heads,
                         key=lambda one: (
@@ -58,6 +58,10 @@ class Turns:
                     self._serve(tenant, waiting)
                     return heads[tenant]
         return None
+
+    def _may_begin(self, priority: int, running: int) -> bool:
+        kept = slots_for(priority, self._slots)
+        return kept == self._slots or running < kept
 
     def _serve(self, tenant: str, waiting: dict[int, dict[str, int]]) -> None:
         """Remember who was served, and forget those who have nothing waiting any more."""
