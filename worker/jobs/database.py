@@ -14,10 +14,10 @@ from pathlib import Path
 from typing import Any, Final
 
 from sqlalchemy import Connection, Engine, create_engine, event
-from sqlalchemy.exc import OperationalError
+from sqlalchemy.exc import DatabaseError, OperationalError
 
 from worker.jobs.child import FULL_DISK
-from worker.jobs.errors import StorageFullError
+from worker.jobs.errors import RecordsError, StorageFullError
 
 PRAGMAS: Final = (
     "journal_mode = WAL",
@@ -42,12 +42,27 @@ class Database:
     def __init__(self, path: Path) -> None:
         # SQLite's own wait for a lock sleeps up to 100 ms; in one process a lock is fair and wakes.
         self._write_lock = threading.Lock()
+        self._path = path
         self._log = path.with_name(f"{path.name}-wal")
         self._flush_lock = threading.Lock()
         self._flushes_begun = 0
         self._last_good_flush = 0
         self._readers = _engine(path, "BEGIN")
         self._writer = _engine(path, "BEGIN IMMEDIATE")
+
+    def check(self) -> None:
+        """See that the records can be read and written.
+
+        Raises:
+            RecordsError: they cannot.
+        """
+        try:
+            with self.writing(durably=False) as connection:
+                found = connection.exec_driver_sql("PRAGMA quick_check(1)").scalar()
+        except DatabaseError as error:
+            raise RecordsError(f"cannot use {self._path}: {error.orig}") from error
+        if found != "ok":
+            raise RecordsError(f"{self._path} is damaged: {found}")
 
     @contextmanager
     def reading(self) -> Iterator[Connection]:

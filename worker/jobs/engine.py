@@ -2,9 +2,9 @@
 
 import asyncio
 import fcntl
+import shutil
 import threading
 import time
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import IO, Any
@@ -17,30 +17,20 @@ from worker.jobs.environment import child_environment
 from worker.jobs.errors import DataFolderInUseError, DrainingError
 from worker.jobs.files import keep_only, make_folder
 from worker.jobs.forkserver import start_forkserver
+from worker.jobs.housekeeping import Housekeeping
 from worker.jobs.job import FINAL_STATES, Job, Priority, State
 from worker.jobs.line import Line
 from worker.jobs.measuring import Measuring
 from worker.jobs.meters import Meters
 from worker.jobs.migrations import upgrade
 from worker.jobs.requests import Request, Requests
-from worker.jobs.results import Results
+from worker.jobs.results import Limits, Results
 from worker.jobs.room import Room
 from worker.jobs.run_times import RunTimes
 from worker.jobs.settling import Desk
 from worker.jobs.slot import Slot
 from worker.jobs.slot_thread import SlotThread
-
-
-@dataclass(frozen=True, slots=True)
-class Readiness:
-    """How the engine is; `fingerprint` names the platform its children run on, once one is warm."""
-
-    slots: int
-    warm_slots: int
-    fingerprint: str | None
-    draining: bool
-    queued: int
-    running: int
+from worker.jobs.status import Readiness, Status, StoreStatus, queues
 
 
 class EmbeddedEngine:
@@ -56,6 +46,8 @@ class EmbeddedEngine:
         recycle_after: how many jobs a child does before a fresh one takes its place.
         time_limit_seconds: what a job may take unless it says otherwise.
         memory_limit_bytes: what a child may hold resident.
+        keep: how many results are kept, and for how long.
+        assets_bytes_limit: what all uploads may take together.
         executor: name of the module that does jobs.
         measurer: name of the module that measures uploads.
         gl: the children's OpenGL platform, `osmesa` or `egl`.
@@ -70,6 +62,8 @@ class EmbeddedEngine:
         queue_limit: int = 256,
         tenant_queue_limit: int = 256,
         recycle_after: int = 1000,
+        keep: Limits | None = None,
+        assets_bytes_limit: int = 20 << 30,
         time_limit_seconds: float = 600,
         memory_limit_bytes: int = 4 << 30,
         executor: str = "worker.run_job",
@@ -81,11 +75,13 @@ class EmbeddedEngine:
         self._environment = child_environment(data, gl=gl, native_cpu=native_cpu)
         self._time_limit_seconds = time_limit_seconds
         self._draining = threading.Event()
+        self._started = time.monotonic()
         self._bell = Bell()
         self.meters = Meters()
         self._database = Database(data / "jobs.sqlite")
-        self._results = Results(data / "results")
-        self.assets = Assets(data / "assets", self._database)
+        self._results = Results(data / "results", keep)
+        self.assets = Assets(data / "assets", self._database, assets_bytes_limit)
+        self._housekeeping = Housekeeping(self._database, self._results, self.assets, self.meters)
         self._claims = Claims(self._database, slots)
         self._line = Line(self._claims)
         self._run_times = RunTimes()
@@ -124,19 +120,22 @@ class EmbeddedEngine:
 
         Raises:
             DataFolderInUseError: another engine has the data folder.
+            RecordsError: its records are damaged, or of a newer version.
+            StorageFullError: the disk is full.
             RuntimeError: no forkserver was started, and this is not the main thread.
         """
         start_forkserver()
         self._lock = lock_folder(self._data)
+        self._database.check()
         upgrade(self._database)
         self._claims.recover()
         self._run_times.recall(self._database)
-        self._results.sweep()
-        self.assets.sweep()
+        self._housekeeping.check()
         keep_only(Path(self._environment["NUMBA_CACHE_DIR"]))
         make_folder(Path(self._environment["MESA_SHADER_CACHE_DIR"]))
         for thread in self._threads:
             thread.start()
+        self._housekeeping.start()
 
     def drain(self, timeout_seconds: float) -> None:
         """Take nothing new, finish what is running, and stop.
@@ -155,6 +154,7 @@ class EmbeddedEngine:
         for thread in self._threads:
             thread.join()
         self._measuring.close()
+        self._housekeeping.stop()
         self._database.close()
         if self._lock is not None:
             self._lock.close()
@@ -244,7 +244,7 @@ class EmbeddedEngine:
         return self._measuring.measure(path, time_limit_seconds)
 
     def ready(self) -> Readiness:
-        """What an operator wants to know."""
+        """Whether work would be done."""
         counts = self._claims.counts()
         return Readiness(
             slots=len(self._threads),
@@ -253,6 +253,23 @@ class EmbeddedEngine:
             draining=self._draining.is_set(),
             queued=counts.get("queued", 0),
             running=counts.get("running", 0),
+        )
+
+    def status(self) -> Status:
+        """How it is, for people and meters."""
+        return Status(
+            draining=self._draining.is_set(),
+            uptime_seconds=time.monotonic() - self._started,
+            fingerprint=self._fingerprint(),
+            typical_seconds=self._run_times.typical(),
+            queues=queues(self._database),
+            slots=tuple(thread.status() for thread in self._threads),
+            store=StoreStatus(
+                result_bytes=self._results.bytes,
+                results=self._results.count,
+                asset_bytes=self.assets.bytes,
+                free_bytes=shutil.disk_usage(self._data).free,
+            ),
         )
 
     def _fingerprint(self) -> str | None:

@@ -19,6 +19,7 @@ from worker.jobs.meters import technique
 from worker.jobs.replacement import Replacement
 from worker.jobs.settling import CRASH, Desk, settle
 from worker.jobs.slot import Outcome, Slot
+from worker.jobs.status import SlotStatus
 
 REPORT_SECONDS: Final = 0.25
 IDLE_LOOK_SECONDS: Final = 1.0
@@ -51,8 +52,8 @@ class SlotThread(threading.Thread):
     ) -> None:
         super().__init__(name=name, daemon=True)
         self.fingerprint: str | None = None
-        self.doing: Doing | None = None
-        self.done = 0
+        self._doing: Doing | None = None
+        self._done = 0
         self._make_slot = make_slot
         self._slot = make_slot()
         self._replacement: Replacement | None = None
@@ -66,6 +67,18 @@ class SlotThread(threading.Thread):
     def is_warm(self) -> bool:
         """Whether its child could start on work at once, or is at it."""
         return self._slot.is_warm
+
+    def status(self) -> SlotStatus:
+        """How it is, for any thread to ask."""
+        doing = self._doing
+        return SlotStatus(
+            name=self.name,
+            is_warm=self.is_warm,
+            jobs_done=self._done,
+            technique=doing.technique if doing else None,
+            attempt=doing.attempt if doing else None,
+            seconds=time.monotonic() - doing.since if doing else None,
+        )
 
     def stop(self) -> None:
         """Finish the work at hand and take no more."""
@@ -142,7 +155,7 @@ class SlotThread(threading.Thread):
     def _do(self, claim: Claim, cancelled: threading.Event) -> None:
         desk = self._desk
         half = desk.results.half(claim.work_id, claim.attempt)
-        self.doing = Doing(technique(claim), claim.attempt, time.monotonic())
+        self._doing = Doing(technique(claim), claim.attempt, time.monotonic())
         desk.run_times.begin(claim.work_id)
         desk.meters.began(claim)
         try:
@@ -153,10 +166,10 @@ class SlotThread(threading.Thread):
             outcome = settle(desk, claim, half, outcome, self.fingerprint, self._stopping)
         finally:
             desk.line.done(claim.work_id)
-            self.doing = None
+            self._doing = None
             half.unlink(missing_ok=True)
         desk.settled(claim.work_id)
-        self.done += 1
+        self._done += 1
         self._done_by_child += 1
         desk.meters.ended(claim, outcome, seconds)
         desk.assets.drop_unwanted(mentioned_in(claim.body))
