@@ -8,7 +8,7 @@ were committed before it began.
 import os
 import sqlite3
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Final
@@ -42,6 +42,7 @@ class Database:
     def __init__(self, path: Path) -> None:
         # SQLite's own wait for a lock sleeps up to 100 ms; in one process a lock is fair and wakes.
         self._write_lock = threading.Lock()
+        self._heard: list[Callable[[], None]] = []
         self._path = path
         self._log = path.with_name(f"{path.name}-wal")
         self._flush_lock = threading.Lock()
@@ -49,6 +50,10 @@ class Database:
         self._last_good_flush = 0
         self._readers = _engine(path, "BEGIN")
         self._writer = _engine(path, "BEGIN IMMEDIATE")
+
+    def on_write(self, hear: Callable[[], None]) -> None:
+        """Have something called after every transaction that changed the records, by its thread."""
+        self._heard.append(hear)
 
     def check(self) -> None:
         """See that the records can be read and written.
@@ -85,6 +90,8 @@ class Database:
         with _no_room():
             with self._write_lock, self._writer.begin() as connection:
                 yield connection
+            for hear in self._heard:
+                hear()
             if durably:
                 self.flush()
 

@@ -1,7 +1,6 @@
 """The embedded engine: records, files and slots of one data folder, behind one class."""
 
 import asyncio
-import fcntl
 import shutil
 import threading
 import time
@@ -9,21 +8,26 @@ from functools import partial
 from pathlib import Path
 from typing import IO, Any
 
+from worker.jobs import idempotency
 from worker.jobs.assets import Assets
+from worker.jobs.batches import Batches
 from worker.jobs.bell import Bell
 from worker.jobs.claims import Claims
 from worker.jobs.database import Database
 from worker.jobs.environment import child_environment
-from worker.jobs.errors import DataFolderInUseError, DrainingError
-from worker.jobs.files import keep_only, make_folder
+from worker.jobs.errors import DrainingError
+from worker.jobs.files import keep_only, lock_folder, make_folder
+from worker.jobs.forecast import Forecast
 from worker.jobs.forkserver import start_forkserver
 from worker.jobs.housekeeping import Housekeeping
+from worker.jobs.idempotency import Key
+from worker.jobs.intake import Request
 from worker.jobs.job import FINAL_STATES, Job, Priority, State
 from worker.jobs.line import Line
 from worker.jobs.measuring import Measuring
 from worker.jobs.meters import Meters
 from worker.jobs.migrations import upgrade
-from worker.jobs.requests import Request, Requests
+from worker.jobs.requests import Requests
 from worker.jobs.results import Limits, Results
 from worker.jobs.room import Room
 from worker.jobs.run_times import RunTimes
@@ -31,6 +35,7 @@ from worker.jobs.settling import Desk
 from worker.jobs.slot import Slot
 from worker.jobs.slot_thread import SlotThread
 from worker.jobs.status import Readiness, Status, StoreStatus, queues
+from worker.jobs.watch import Watch
 
 
 class EmbeddedEngine:
@@ -94,6 +99,17 @@ class EmbeddedEngine:
         self._requests = Requests(
             self._database, room=room, meters=self.meters, is_reusable=self._is_reusable
         )
+        self.batches = Batches(
+            self._database,
+            room=room,
+            is_reusable=self._is_reusable,
+            require_open=self._require_open,
+            arrived=self._line.announce,
+            unwanted=self._stop_unwanted,
+        )
+        self.forecast = Forecast(self._database, slots)
+        self.watch = Watch(self._requests.look)
+        self._database.on_write(self.watch.wake)
         desk = Desk(
             line=self._line,
             claims=self._claims,
@@ -130,12 +146,14 @@ class EmbeddedEngine:
         upgrade(self._database)
         self._claims.recover()
         self._run_times.recall(self._database)
+        idempotency.sweep(self._database)
         self._housekeeping.check()
         keep_only(Path(self._environment["NUMBA_CACHE_DIR"]))
         make_folder(Path(self._environment["MESA_SHADER_CACHE_DIR"]))
         for thread in self._threads:
             thread.start()
         self._housekeeping.start()
+        self.watch.start()
 
     def drain(self, timeout_seconds: float) -> None:
         """Take nothing new, finish what is running, and stop.
@@ -155,6 +173,7 @@ class EmbeddedEngine:
             thread.join()
         self._measuring.close()
         self._housekeeping.stop()
+        self.watch.close()
         self._database.close()
         if self._lock is not None:
             self._lock.close()
@@ -168,22 +187,35 @@ class EmbeddedEngine:
         tenant: str,
         priority: Priority = "interactive",
         time_limit_seconds: float | None = None,
+        estimate_seconds: float | None = None,
+        key: Key | None = None,
     ) -> Job:
         """Record a job, which is succeeded at once if the tenant has a result of the digest.
+
+        With a key that was sent before it answers the job that was recorded then.
 
         Raises:
             DrainingError: the engine is stopping.
             QueueFullError: too much is waiting.
             StorageFullError: the disk is full.
+            KeyReusedError: the key came with another body before.
         """
-        if self._draining.is_set():
-            raise DrainingError("the engine is stopping")
+        self._require_open()
         limit = self._time_limit_seconds if time_limit_seconds is None else time_limit_seconds
-        job = self._requests.submit(Request(tenant, kind, body, digest, priority, limit))
+        request = Request(tenant, kind, body, digest, priority, limit, estimate_seconds)
+        job = self._requests.submit(request, key)
         if job.state == "queued":
             self._line.announce()
         self._database.flush()  # a slot is at it already
         return job
+
+    def replayed(self, tenant: str, key: Key) -> Job | None:
+        """The job that a key stands for; None if it is new.
+
+        Raises:
+            KeyReusedError: the key came with another body before.
+        """
+        return self._requests.replayed(tenant, key)
 
     def get(self, tenant: str, job_id: str) -> Job | None:
         """One job of the tenant."""
@@ -207,9 +239,7 @@ class EmbeddedEngine:
         """Cancel a job; one that is finished stays as it is."""
         job = self._requests.cancel(tenant, job_id)
         if job is not None and job.state == "cancelled":
-            if not self._claims.is_live(job.work_id):
-                self._line.cancel(job.work_id)
-            self._bell.ring(job.work_id)
+            self._stop_unwanted(job.work_id)
         return job
 
     async def finished(self, tenant: str, job_id: str, timeout_seconds: float) -> Job | None:
@@ -272,6 +302,16 @@ class EmbeddedEngine:
             ),
         )
 
+    def _require_open(self) -> None:
+        if self._draining.is_set():
+            raise DrainingError("the engine is stopping")
+
+    def _stop_unwanted(self, work_id: str) -> None:
+        """Stop work if no job wants it any more, and tell those who wait for it."""
+        if not self._claims.is_live(work_id):
+            self._line.cancel(work_id)
+        self._bell.ring(work_id)
+
     def _fingerprint(self) -> str | None:
         return next((one.fingerprint for one in self._threads if one.fingerprint), None)
 
@@ -280,18 +320,3 @@ class EmbeddedEngine:
         return self._fingerprint() in (None, fingerprint) and (
             self._results.find(work_id) is not None
         )
-
-
-def lock_folder(data: Path) -> IO[bytes]:
-    """Make the data folder this process's own until the answer is closed.
-
-    Raises:
-        DataFolderInUseError: another engine has it.
-    """
-    lock = (data / "lock").open("ab")
-    try:
-        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError as error:
-        lock.close()
-        raise DataFolderInUseError(f"another service uses {data}") from error
-    return lock

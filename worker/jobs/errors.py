@@ -5,6 +5,7 @@ JobsError
 │   └── TenantFullError   too much of this tenant is
 ├── DrainingError         the engine is stopping and takes nothing new
 ├── StorageFullError      the disk that holds the data folder is full
+├── KeyReusedError        an idempotency key came with another body before
 ├── DataFolderInUseError  another service owns the data folder
 ├── RecordsError          the records cannot be read: damaged, or of a newer version
 ├── SlotError             a child could not be started or warmed
@@ -41,6 +42,10 @@ class DrainingError(JobsError):
 
 class StorageFullError(JobsError):
     """There is no room left for records or files."""
+
+
+class KeyReusedError(JobsError):
+    """An idempotency key stands for another request already."""
 
 
 class DataFolderInUseError(JobsError):

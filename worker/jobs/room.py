@@ -4,6 +4,7 @@ Batches have a bound of their own and do not count: who sent one may still ask f
 """
 
 import math
+from typing import Final
 
 from sqlalchemy import Connection, func, select
 
@@ -11,7 +12,10 @@ from worker.jobs.errors import QueueFullError, TenantFullError
 from worker.jobs.job import PRIORITIES, Priority
 from worker.jobs.run_times import RunTimes
 from worker.jobs.schema import work
-from worker.jobs.turns import slots_for
+from worker.jobs.turns import BATCH, slots_for
+
+IN_BATCHES: Final = 4000
+"""Work of batches that may wait: it does not count as waiting for those who ask for one thing."""
 
 
 class Room:
@@ -53,6 +57,19 @@ class Room:
             raise TenantFullError(waiting.get(tenant, 0), _whole(seconds * max(1, len(waiting))))
         if (everything := sum(waiting.values())) >= self._queue_limit:
             raise QueueFullError(everything, _whole(seconds))
+
+    def require_for_batch(self, connection: Connection, count: int) -> None:
+        """Refuse more work of batches than may wait.
+
+        Raises:
+            QueueFullError: so much more is too much.
+        """
+        query = select(func.count()).where(work.c.state == "queued", work.c.in_batch.is_(True))
+        waiting = connection.execute(query).scalar_one()
+        excess = waiting + count - IN_BATCHES
+        if count and excess > 0:
+            seconds = excess * self._run_times.typical() / slots_for(BATCH, self._slots)
+            raise QueueFullError(waiting, _whole(seconds))
 
 
 def _whole(seconds: float) -> int:

@@ -182,13 +182,15 @@ class SlotThread(threading.Thread):
             "assets": str(self._desk.assets.folder),
         }
         next_report = time.monotonic() + REPORT_SECONDS  # short work is not worth a write
+        furthest = 0.0
 
         def report(progress: float, stage: str) -> None:
-            nonlocal next_report
+            nonlocal next_report, furthest
+            furthest = max(furthest, progress)
             if time.monotonic() >= next_report:
                 next_report = time.monotonic() + REPORT_SECONDS
                 with suppress(SQLAlchemyError, StorageFullError):  # progress is only told
-                    self._desk.claims.report(claim, progress, stage)
+                    self._desk.claims.report(claim, furthest, stage)
 
         try:
             return self._slot.run(

@@ -52,7 +52,7 @@ class Turns:
                         key=lambda one: (
                             of_tenant.get(one, 0),
                             self._served.get(one, 0),
-                            heads[one],  # noqa: B023 - used at once
+                            heads[one],
                         ),
                     )
                     self._serve(tenant, waiting)

@@ -6,7 +6,7 @@ from worker.jobs import files
 from worker.jobs.assets import Assets
 from worker.jobs.claims import Claims
 from worker.jobs.errors import StorageFullError
-from worker.jobs.requests import Request
+from worker.jobs.intake import Request
 
 CONTENT = b"picture"
 SHA256 = hashlib.sha256(CONTENT).hexdigest()

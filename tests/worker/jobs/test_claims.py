@@ -1,7 +1,7 @@
 import pytest
 
 from worker.jobs.claims import MOST_ATTEMPTS, Claims
-from worker.jobs.requests import Request
+from worker.jobs.intake import Request
 
 LOST = {"code": "worker_lost", "message": "gone", "pointer": None}
 

@@ -4,7 +4,7 @@ import pytest
 
 from worker.jobs.claims import Claims
 from worker.jobs.errors import QueueFullError, TenantFullError
-from worker.jobs.requests import Request
+from worker.jobs.intake import Request
 from worker.jobs.run_times import RunTimes
 
 

@@ -3,7 +3,7 @@
 import pytest
 
 from worker.jobs.claims import Claims
-from worker.jobs.requests import Request
+from worker.jobs.intake import Request
 
 
 @pytest.fixture
