@@ -10,8 +10,10 @@ import uvicorn
 from fastapi import FastAPI
 
 from service.app import create_app, make_engine
+from service.patience import patient
 from service.settings import Settings
-from worker.jobs.errors import DataFolderInUseError
+from worker.jobs import log_lines
+from worker.jobs.errors import JobsError
 from worker.jobs.forkserver import start_forkserver
 
 
@@ -41,9 +43,7 @@ class Server(uvicorn.Server):
 def main() -> int:
     """Serve; the answer is the exit code."""
     settings = Settings()
-    logging.basicConfig(
-        level=settings.log_level.upper(), format="%(asctime)s %(levelname)s %(name)s: %(message)s"
-    )
+    log_lines.install(settings.log_level)
     logging.getLogger("alembic").setLevel(logging.WARNING)
     start_forkserver()
     try:
@@ -57,6 +57,8 @@ def main() -> int:
         port=settings.port,
         log_level=settings.log_level,
         log_config=None,
+        access_log=False,
+        http=patient(settings.patience_seconds),
         server_header=False,
         timeout_graceful_shutdown=5,
     )
@@ -64,7 +66,7 @@ def main() -> int:
     try:
         listener = listening(settings.host, settings.port)
         engine.start()
-    except (OSError, DataFolderInUseError) as error:
+    except (OSError, JobsError) as error:
         return _refused(str(error))
     print(f"Texloom serves {address(listener)} (documentation: /docs)", flush=True)  # noqa: T201
     server.run([listener])

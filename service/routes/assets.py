@@ -174,7 +174,10 @@ def get_asset(request: Request, sha256: Name, engine: Engine, tenant: Tenant) ->
     operation_id="delete_asset",
     summary="Delete an upload",
     response_class=Response,
-    responses={204: {"description": "It is gone."}, **problems("origin_refused", "asset_unknown")},
+    responses={
+        204: {"description": "It is gone."},
+        **problems("origin_refused", "asset_unknown", "storage_full"),
+    },
 )
 def delete_asset(sha256: Name, engine: Engine, tenant: Tenant) -> Response:
     """Results made with it stay; new requests for it are refused."""

@@ -103,7 +103,7 @@ async def get_job(request: Request, job_id: JobId, engine: Engine, tenant: Tenan
             "model": Job,
             "headers": LOCATION,
         },
-        **problems("origin_refused", "job_unknown"),
+        **problems("origin_refused", "job_unknown", "storage_full"),
     },
 )
 def cancel_job(job_id: JobId, engine: Engine, tenant: Tenant) -> Response:
