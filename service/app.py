@@ -19,6 +19,8 @@ from service.openapi_document import document
 from service.request_log import RequestLog, RequestMeters
 from service.routes import (
     assets,
+    batches,
+    events,
     front,
     health,
     jobs,
@@ -33,6 +35,20 @@ from worker.jobs.engine import EmbeddedEngine
 from worker.jobs.queue import JobQueue
 from worker.jobs.results import Limits
 
+ROUTES = (
+    front,
+    textures,
+    renders,
+    batches,
+    validate,
+    jobs,
+    events,
+    assets,
+    techniques,
+    health,
+    status,
+)
+
 EXPOSED = (
     "Content-Location",
     "Content-Range",
@@ -46,6 +62,9 @@ EXPOSED = (
 
 MEASURED_AT_ONCE = 2
 """Uploads wait their turn here, so that they do not take all threads from everything else."""
+
+BATCHES_AT_ONCE = 1
+"""So do batches: to look into a thousand requests takes seconds, in threads that share one core."""
 
 
 def create_app(settings: Settings, engine: JobQueue | None = None) -> FastAPI:
@@ -72,8 +91,8 @@ def create_app(settings: Settings, engine: JobQueue | None = None) -> FastAPI:
     app.state.engine = engine
     app.state.drained = threading.Event()
     app.state.measuring = CapacityLimiter(MEASURED_AT_ONCE)
-    resources = (front, textures, renders, validate, jobs, assets, techniques, health, status)
-    for resource in resources:
+    app.state.batching = CapacityLimiter(BATCHES_AT_ONCE)
+    for resource in ROUTES:
         app.include_router(resource.router)
     error_handlers.install(app)
     app.add_middleware(SameOriginWrites, allowed=settings.cors_origins)

@@ -17,6 +17,7 @@ from service.problems import ProblemError
 from worker.jobs.child import FULL_DISK
 from worker.jobs.errors import (
     DrainingError,
+    KeyReusedError,
     QueueFullError,
     SlotError,
     StorageFullError,
@@ -40,6 +41,7 @@ def install(app: FastAPI) -> None:
         QueueFullError: _queue_full,
         TenantFullError: _tenant_full,
         DrainingError: _draining,
+        KeyReusedError: _key_reused,
         StorageFullError: _storage_full,
         OSError: _no_disk,
         SlotError: _no_slot,
@@ -100,6 +102,10 @@ def _busy(code: str, error: QueueFullError) -> Response:
 
 async def _draining(_request: Request, _error: DrainingError) -> Response:
     return ProblemError("draining", headers=SOON).response()
+
+
+async def _key_reused(_request: Request, error: KeyReusedError) -> Response:
+    return ProblemError("idempotency_key_reused", str(error)).response()
 
 
 async def _storage_full(_request: Request, error: StorageFullError) -> Response:

@@ -19,7 +19,7 @@ from service.problems import ProblemError
 from service.stored_files import stored_file
 from service.tenants import Tenant
 from service.uploads import FIELD, FORM, measured, passing, stored, upload
-from worker.jobs.engine import EmbeddedEngine
+from worker.jobs.queue import JobQueue
 
 router = APIRouter(prefix="/v1/assets", tags=["assets"])
 
@@ -186,7 +186,7 @@ def delete_asset(sha256: Name, engine: Engine, tenant: Tenant) -> Response:
     return Response(status_code=204)
 
 
-def _find(engine: EmbeddedEngine, tenant: str, sha256: str) -> tuple[AssetFacts, pathlib.Path]:
+def _find(engine: JobQueue, tenant: str, sha256: str) -> tuple[AssetFacts, pathlib.Path]:
     facts = path = None
     if WELL_FORMED.fullmatch(sha256):
         facts = asset_facts(engine, tenant, sha256)

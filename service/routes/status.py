@@ -1,5 +1,6 @@
 """What the service is doing, for people and for Prometheus."""
 
+from collections.abc import Mapping
 from dataclasses import asdict
 from typing import Final
 
@@ -10,13 +11,13 @@ from starlette.responses import Response
 
 from api_schemas.status import QueueStatus, ServiceStatus, SlotStatus, StoreStatus
 from api_schemas.version import VERSION
-from service.documentation import TEXT
+from service.documentation import TEXT, Responses
 from service.engine_access import Engine
 from worker.jobs.status import Status
 
 router = APIRouter()
 
-EXPOSITION: Final = {
+EXPOSITION: Final[Responses] = {
     200: {
         "description": "The text format of Prometheus.",
         "content": {"text/plain": {"schema": TEXT}},
@@ -82,7 +83,7 @@ def _gauges(status: Status) -> CollectorRegistry:
     """What is not counted but looked up."""
     registry = CollectorRegistry()
 
-    def gauge(name: str, description: str, values: dict[str, float], label: str) -> None:
+    def gauge(name: str, description: str, values: Mapping[str, float], label: str) -> None:
         meter = Gauge(f"texloom_{name}", description, (label,), registry=registry)
         for key, value in values.items():
             meter.labels(key).set(value)

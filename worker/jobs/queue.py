@@ -4,9 +4,13 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from worker.jobs.assets import Assets
+from worker.jobs.batches import Batches
+from worker.jobs.forecast import Forecast
+from worker.jobs.idempotency import Key
 from worker.jobs.job import Job, Priority, State
 from worker.jobs.meters import Meters
 from worker.jobs.status import Readiness, Status
+from worker.jobs.watch import Watch
 
 
 class JobQueue(Protocol):
@@ -19,6 +23,18 @@ class JobQueue(Protocol):
     @property
     def assets(self) -> Assets:
         """What tenants uploaded."""
+
+    @property
+    def batches(self) -> Batches:
+        """Many jobs asked for at once."""
+
+    @property
+    def forecast(self) -> Forecast:
+        """When jobs will be finished."""
+
+    @property
+    def watch(self) -> Watch:
+        """News of jobs for those who follow them."""
 
     @property
     def meters(self) -> Meters:
@@ -40,15 +56,26 @@ class JobQueue(Protocol):
         tenant: str,
         priority: Priority = "interactive",
         time_limit_seconds: float | None = None,
+        estimate_seconds: float | None = None,
+        key: Key | None = None,
     ) -> Job:
         """Record a job; once this returns, no crash and no power cut loses it.
 
-        It has succeeded at once if the tenant has a result of the digest.
+        It has succeeded at once if the tenant has a result of the digest. With a key that was sent
+        before it answers the job that was recorded then.
 
         Raises:
             DrainingError: the engine is stopping.
             QueueFullError: too much is waiting.
             StorageFullError: there is no room for the record.
+            KeyReusedError: the key came with another body before.
+        """
+
+    def replayed(self, tenant: str, key: Key) -> Job | None:
+        """The job that a key stands for; None if it is new.
+
+        Raises:
+            KeyReusedError: the key came with another body before.
         """
 
     def get(self, tenant: str, job_id: str) -> Job | None:
