@@ -5,6 +5,7 @@ import socket
 import sys
 import threading
 from types import FrameType
+from typing import Final
 
 import uvicorn
 from fastapi import FastAPI
@@ -15,6 +16,10 @@ from service.settings import Settings
 from worker.jobs import log_lines
 from worker.jobs.errors import JobsError
 from worker.jobs.forkserver import start_forkserver
+
+SWITCH_SECONDS: Final = 0.0005
+"""A thread that wants the interpreter waits so long for one that computes: ten times less than
+Python's own patience, since answers pass through several threads."""
 
 
 class Server(uvicorn.Server):
@@ -45,6 +50,7 @@ def main() -> int:
     settings = Settings()
     log_lines.install(settings.log_level)
     logging.getLogger("alembic").setLevel(logging.WARNING)
+    sys.setswitchinterval(SWITCH_SECONDS)
     start_forkserver()
     try:
         engine = make_engine(settings)

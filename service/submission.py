@@ -59,7 +59,7 @@ async def waited(request: Request, job: Job, seconds: float, engine: JobQueue) -
         patience = min(deadline - loop.time(), LONGEST_NAP_SECONDS)
         if patience <= 0:
             break
-        job = await engine.finished(job.tenant, job.id, patience) or job
+        job = await engine.finished(job, patience)
     return job
 
 
@@ -87,23 +87,26 @@ def picture(request: Request, job: Job, engine: JobQueue, headers: dict[str, str
         ProblemError: The file has been removed.
     """
     path = engine.result_path(job)
-    if path is None:
-        detail = "ask for the picture again to have it made again"
-        raise ProblemError("result_evicted", detail, instance=job_url(job.id))
     file = result(job)
     suffix = next(name for name, kind in MEDIA_TYPES.items() if kind == file.media_type)
-    return stored_file(
-        request,
-        path,
-        media_type=file.media_type,
-        sha256=file.sha256,
-        headers={
-            "Texloom-Digest": job.digest,
-            "Content-Location": result_url(job.id),
-            "Content-Disposition": f'inline; filename="{job.digest[:12]}.{suffix}"',
-            **headers,
-        },
-    )
+    try:
+        if path is None:
+            raise FileNotFoundError
+        return stored_file(
+            request,
+            path,
+            media_type=file.media_type,
+            sha256=file.sha256,
+            headers={
+                "Texloom-Digest": job.digest,
+                "Content-Location": result_url(job.id),
+                "Content-Disposition": f'inline; filename="{job.digest[:12]}.{suffix}"',
+                **headers,
+            },
+        )
+    except FileNotFoundError:
+        detail = "ask for the picture again to have it made again"
+        raise ProblemError("result_evicted", detail, instance=job_url(job.id)) from None
 
 
 def _submit(

@@ -165,7 +165,12 @@ def get_asset(request: Request, sha256: Name, engine: Engine, tenant: Tenant) ->
         "Content-Disposition": f'attachment; filename="{sha256[:12]}.{facts.format}"',
         "Vary": "Accept",
     }
-    return stored_file(request, path, media_type=facts.media_type, sha256=sha256, headers=headers)
+    try:
+        return stored_file(
+            request, path, media_type=facts.media_type, sha256=sha256, headers=headers
+        )
+    except FileNotFoundError:  # deleted at this moment
+        raise ProblemError("asset_unknown") from None
 
 
 @router.delete(

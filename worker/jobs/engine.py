@@ -104,7 +104,7 @@ class EmbeddedEngine:
             room=room,
             is_reusable=self._is_reusable,
             require_open=self._require_open,
-            arrived=self._line.announce,
+            arrived=partial(self._line.announce, slots),
             unwanted=self._stop_unwanted,
         )
         self.forecast = Forecast(self._database, slots)
@@ -163,7 +163,7 @@ class EmbeddedEngine:
         self._draining.set()
         for thread in self._threads:
             thread.stop()
-        self._line.announce()
+        self._line.announce(len(self._threads))
         deadline = time.monotonic() + timeout_seconds
         for thread in self._threads:
             thread.join(max(0.0, deadline - time.monotonic()))
@@ -242,23 +242,21 @@ class EmbeddedEngine:
             self._stop_unwanted(job.work_id)
         return job
 
-    async def finished(self, tenant: str, job_id: str, timeout_seconds: float) -> Job | None:
-        """The job as soon as it is finished, or as it is when the time is up."""
-        job = await asyncio.to_thread(self.get, tenant, job_id)
-        if job is None or job.state in FINAL_STATES:
-            return job
+    async def finished(self, job: Job, timeout_seconds: float) -> Job:
+        """A job as soon as it is finished, or as it is when the time is up."""
         deadline = asyncio.get_running_loop().time() + timeout_seconds
         with self._bell.listening(job.work_id) as rung:
-            while True:
+            while job.state not in FINAL_STATES:
                 rung.clear()
-                job = await asyncio.to_thread(self.get, tenant, job_id)
-                if job is None or job.state in FINAL_STATES:
-                    return job
+                job = await asyncio.to_thread(self.get, job.tenant, job.id) or job
+                if job.state in FINAL_STATES:
+                    break
                 try:
                     async with asyncio.timeout_at(deadline):
                         await rung.wait()
                 except TimeoutError:
-                    return job
+                    break
+        return job
 
     def result_path(self, job: Job) -> Path | None:
         """The result of a succeeded job; None when it was evicted."""

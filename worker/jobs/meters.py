@@ -2,7 +2,7 @@
 
 from typing import Any, Final, Literal
 
-from prometheus_client import CollectorRegistry, Counter, Histogram
+from prometheus_client import CollectorRegistry, Counter, Histogram, disable_created_metrics
 
 from worker.jobs.claims import Claim
 from worker.jobs.slot import Outcome
@@ -17,6 +17,8 @@ RESTARTS: Final = (
     "died_idle",
 )
 SECONDS: Final = (0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1, 2.5, 5, 10, 30, 60, 300, 600)
+
+disable_created_metrics()  # when a counter began is known: when the service did
 
 
 class Meters:

@@ -94,8 +94,8 @@ class JobQueue(Protocol):
     def cancel(self, tenant: str, job_id: str) -> Job | None:
         """Cancel a job; one that is finished stays as it is."""
 
-    async def finished(self, tenant: str, job_id: str, timeout_seconds: float) -> Job | None:
-        """The job as soon as it is finished, or as it is when the time is up."""
+    async def finished(self, job: Job, timeout_seconds: float) -> Job:
+        """A job as soon as it is finished, or as it is when the time is up."""
 
     def result_path(self, job: Job) -> Path | None:
         """The result of a succeeded job; None when it was evicted."""
