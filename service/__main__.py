@@ -5,14 +5,21 @@ import socket
 import sys
 import threading
 from types import FrameType
+from typing import Final
 
 import uvicorn
 from fastapi import FastAPI
 
 from service.app import create_app, make_engine
+from service.patience import patient
 from service.settings import Settings
-from worker.jobs.errors import DataFolderInUseError
+from worker.jobs import log_lines
+from worker.jobs.errors import JobsError
 from worker.jobs.forkserver import start_forkserver
+
+SWITCH_SECONDS: Final = 0.0005
+"""A thread that wants the interpreter waits so long for one that computes: ten times less than
+Python's own patience, since answers pass through several threads."""
 
 
 class Server(uvicorn.Server):
@@ -41,10 +48,9 @@ class Server(uvicorn.Server):
 def main() -> int:
     """Serve; the answer is the exit code."""
     settings = Settings()
-    logging.basicConfig(
-        level=settings.log_level.upper(), format="%(asctime)s %(levelname)s %(name)s: %(message)s"
-    )
+    log_lines.install(settings.log_level)
     logging.getLogger("alembic").setLevel(logging.WARNING)
+    sys.setswitchinterval(SWITCH_SECONDS)
     start_forkserver()
     try:
         engine = make_engine(settings)
@@ -57,6 +63,8 @@ def main() -> int:
         port=settings.port,
         log_level=settings.log_level,
         log_config=None,
+        access_log=False,
+        http=patient(settings.patience_seconds),
         server_header=False,
         timeout_graceful_shutdown=5,
     )
@@ -64,7 +72,7 @@ def main() -> int:
     try:
         listener = listening(settings.host, settings.port)
         engine.start()
-    except (OSError, DataFolderInUseError) as error:
+    except (OSError, JobsError) as error:
         return _refused(str(error))
     print(f"Texloom serves {address(listener)} (documentation: /docs)", flush=True)  # noqa: T201
     server.run([listener])

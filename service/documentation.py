@@ -59,7 +59,7 @@ def problems(*codes: str) -> Responses:
             "description": "; ".join(f"`{name}`: {TABLE[name][1].lower()}" for name in names),
             "content": {MEDIA_TYPE: {"schema": {"$ref": "#/components/schemas/Problem"}}},
         }
-        if status in (429, 503):
+        if status in (429, 503, 507):
             responses[status]["headers"] = RETRY_AFTER
         if "job_not_finished" in names:
             responses[status]["headers"] = LATER
@@ -143,6 +143,7 @@ SUBMITTED: Final[Responses] = {
         "job_failed",
         "job_cancelled",
         "queue_full",
+        "tenant_queue_full",
         "draining",
         "storage_full",
         "result_evicted",

@@ -11,8 +11,8 @@ from starlette.responses import Response
 from starlette.types import Receive, Scope, Send
 
 from service.job_views import view
-from worker.jobs.engine import EmbeddedEngine
 from worker.jobs.job import FINAL_STATES, Job
+from worker.jobs.queue import JobQueue
 from worker.jobs.watch import Follower, news_id
 
 MEDIA_TYPE: Final = "text/event-stream"
@@ -26,7 +26,7 @@ RECONNECT: Final = b"retry: 1000\n\n"
 class EventStream(Response):
     """Tells the news of a job that the caller does not know yet, and ends after its end."""
 
-    def __init__(self, engine: EmbeddedEngine, job: Job, last_event_id: str | None) -> None:
+    def __init__(self, engine: JobQueue, job: Job, last_event_id: str | None) -> None:
         super().__init__(media_type=MEDIA_TYPE)
         self._engine = engine
         self._job = job

@@ -9,8 +9,8 @@ from api_schemas import jobs as schemas
 from api_schemas.jobs import JOB_ID_PATTERN, JobLinks, Result
 from api_schemas.problems import JobFailure
 from service.problems import ProblemError
-from worker.jobs.engine import EmbeddedEngine
 from worker.jobs.job import Job
+from worker.jobs.queue import JobQueue
 
 RETRY_SECONDS = 1
 WELL_FORMED: Final = re.compile(JOB_ID_PATTERN)
@@ -26,7 +26,7 @@ def result_url(job_id: str) -> str:
     return f"{job_url(job_id)}/result"
 
 
-def found_job(engine: EmbeddedEngine, tenant: str, job_id: str) -> Job:
+def found_job(engine: JobQueue, tenant: str, job_id: str) -> Job:
     """Return one of the tenant's jobs.
 
     Raises:

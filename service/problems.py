@@ -28,6 +28,7 @@ TABLE: Final[Mapping[str, tuple[int, str]]] = {
     "technique_unknown": (404, "There is no such technique"),
     "method_not_allowed": (405, "This cannot be done here"),
     "not_acceptable": (406, "Nothing that is made here is accepted"),
+    "request_timeout": (408, "The request came too slowly"),
     "asset_missing": (409, "An asset has not been uploaded"),
     "asset_unusable": (409, "The upload cannot be used as a picture"),
     "asset_unsupported": (409, "The upload is of a kind that is not taken"),
@@ -54,11 +55,12 @@ TABLE: Final[Mapping[str, tuple[int, str]]] = {
     "range_not_satisfiable": (416, "The file does not have these bytes"),
     "request_invalid": (422, "The request does not fit its schema"),
     "queue_full": (429, "Too much is waiting already"),
+    "tenant_queue_full": (429, "Too much of yours is waiting already"),
     "too_many_streams": (429, "Too many streams of events are open"),
     "internal_error": (500, "The service made a mistake"),
     "draining": (503, "The service is stopping"),
     "not_ready": (503, "The service is not ready yet"),
-    "storage_full": (503, "The disk is full"),
+    "storage_full": (507, "There is no room left on the disk"),
 }
 """Status and title of every code."""
 

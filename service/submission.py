@@ -17,9 +17,9 @@ from service.negotiation import Wish, require_accepted, wish
 from service.problems import ProblemError
 from service.settings import Settings
 from service.stored_files import stored_file
-from worker.jobs.engine import EmbeddedEngine
 from worker.jobs.idempotency import Key
 from worker.jobs.job import FINAL_STATES, Job
+from worker.jobs.queue import JobQueue
 
 LONGEST_NAP_SECONDS: Final = 1.0
 
@@ -27,7 +27,7 @@ LONGEST_NAP_SECONDS: Final = 1.0
 async def submitted(
     request: Request,
     body: PictureRequest,
-    engine: EmbeddedEngine,
+    engine: JobQueue,
     settings: Settings,
     tenant: str,
     key: Key | None,
@@ -50,7 +50,7 @@ async def submitted(
     return job_answer(job, engine, 200 if job.state in FINAL_STATES else 202, applied)
 
 
-async def waited(request: Request, job: Job, seconds: float, engine: EmbeddedEngine) -> Job:
+async def waited(request: Request, job: Job, seconds: float, engine: JobQueue) -> Job:
     """Return a job as soon as it is finished, the time is up, or the service is about to end."""
     loop = asyncio.get_running_loop()
     deadline = loop.time() + seconds
@@ -59,11 +59,11 @@ async def waited(request: Request, job: Job, seconds: float, engine: EmbeddedEng
         patience = min(deadline - loop.time(), LONGEST_NAP_SECONDS)
         if patience <= 0:
             break
-        job = await engine.finished(job.tenant, job.id, patience) or job
+        job = await engine.finished(job, patience)
     return job
 
 
-def job_answer(job: Job, engine: EmbeddedEngine, status: int, headers: dict[str, str]) -> Response:
+def job_answer(job: Job, engine: JobQueue, status: int, headers: dict[str, str]) -> Response:
     """Answer with a job; one that is not finished says when to ask again."""
     later = {} if job.state in FINAL_STATES else {"Retry-After": str(RETRY_SECONDS)}
     return Response(
@@ -80,38 +80,39 @@ def job_answer(job: Job, engine: EmbeddedEngine, status: int, headers: dict[str,
     )
 
 
-def picture(
-    request: Request, job: Job, engine: EmbeddedEngine, headers: dict[str, str]
-) -> Response:
+def picture(request: Request, job: Job, engine: JobQueue, headers: dict[str, str]) -> Response:
     """Answer with a succeeded job's file.
 
     Raises:
         ProblemError: The file has been removed.
     """
     path = engine.result_path(job)
-    if path is None:
-        detail = "ask for the picture again to have it made again"
-        raise ProblemError("result_evicted", detail, instance=job_url(job.id))
     file = result(job)
     suffix = next(name for name, kind in MEDIA_TYPES.items() if kind == file.media_type)
-    return stored_file(
-        request,
-        path,
-        media_type=file.media_type,
-        sha256=file.sha256,
-        headers={
-            "Texloom-Digest": job.digest,
-            "Content-Location": result_url(job.id),
-            "Content-Disposition": f'inline; filename="{job.digest[:12]}.{suffix}"',
-            **headers,
-        },
-    )
+    try:
+        if path is None:
+            raise FileNotFoundError
+        return stored_file(
+            request,
+            path,
+            media_type=file.media_type,
+            sha256=file.sha256,
+            headers={
+                "Texloom-Digest": job.digest,
+                "Content-Location": result_url(job.id),
+                "Content-Disposition": f'inline; filename="{job.digest[:12]}.{suffix}"',
+                **headers,
+            },
+        )
+    except FileNotFoundError:
+        detail = "ask for the picture again to have it made again"
+        raise ProblemError("result_evicted", detail, instance=job_url(job.id)) from None
 
 
 def _submit(
     body: PictureRequest,
     wished: Wish,
-    engine: EmbeddedEngine,
+    engine: JobQueue,
     settings: Settings,
     tenant: str,
     key: Key | None,

@@ -15,8 +15,8 @@ from api_schemas.assets import AssetFacts
 from api_schemas.problems import Obstruction
 from service.limited_body import chunks
 from service.problems import TABLE, ProblemError
-from worker.jobs.engine import EmbeddedEngine
 from worker.jobs.errors import MeasuringError
+from worker.jobs.queue import JobQueue
 
 FORM: Final = "multipart/form-data"
 FIELD: Final = "file"
@@ -54,7 +54,7 @@ async def stored(content: AsyncIterator[bytes], path: Path) -> str:
     return sha256.hexdigest()
 
 
-def measured(engine: EmbeddedEngine, path: Path, sha256: str, limit_seconds: float) -> AssetFacts:
+def measured(engine: JobQueue, path: Path, sha256: str, limit_seconds: float) -> AssetFacts:
     """Return the facts of an uploaded file.
 
     Raises:

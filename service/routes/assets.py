@@ -19,7 +19,7 @@ from service.problems import ProblemError
 from service.stored_files import names, stored_file
 from service.tenants import Tenant
 from service.uploads import FIELD, FORM, measured, passing, stored, upload
-from worker.jobs.engine import EmbeddedEngine
+from worker.jobs.queue import JobQueue
 
 router = APIRouter(prefix="/v1/assets", tags=["assets"])
 
@@ -168,7 +168,12 @@ def get_asset(request: Request, sha256: Name, engine: Engine, tenant: Tenant) ->
         "Content-Disposition": f'attachment; filename="{sha256[:12]}.{facts.format}"',
         "Vary": "Accept",
     }
-    return stored_file(request, path, media_type=facts.media_type, sha256=sha256, headers=headers)
+    try:
+        return stored_file(
+            request, path, media_type=facts.media_type, sha256=sha256, headers=headers
+        )
+    except FileNotFoundError:  # deleted at this moment
+        raise ProblemError("asset_unknown") from None
 
 
 @router.delete(
@@ -177,7 +182,10 @@ def get_asset(request: Request, sha256: Name, engine: Engine, tenant: Tenant) ->
     operation_id="delete_asset",
     summary="Delete an upload",
     response_class=Response,
-    responses={204: {"description": "It is gone."}, **problems("origin_refused", "asset_unknown")},
+    responses={
+        204: {"description": "It is gone."},
+        **problems("origin_refused", "asset_unknown", "storage_full"),
+    },
 )
 def delete_asset(sha256: Name, engine: Engine, tenant: Tenant) -> Response:
     """Results made with it stay; new requests for it are refused."""
@@ -186,7 +194,7 @@ def delete_asset(sha256: Name, engine: Engine, tenant: Tenant) -> Response:
     return Response(status_code=204)
 
 
-def _find(engine: EmbeddedEngine, tenant: str, sha256: str) -> tuple[AssetFacts, pathlib.Path]:
+def _find(engine: JobQueue, tenant: str, sha256: str) -> tuple[AssetFacts, pathlib.Path]:
     facts = path = None
     if WELL_FORMED.fullmatch(sha256):
         facts = asset_facts(engine, tenant, sha256)

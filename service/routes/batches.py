@@ -34,7 +34,7 @@ from service.settings import Settings
 from service.stored_files import names
 from service.tenants import Tenant
 from worker.jobs import batch as records
-from worker.jobs.engine import EmbeddedEngine
+from worker.jobs.queue import JobQueue
 
 router = APIRouter(prefix="/v1/batches", tags=["batches"])
 
@@ -215,7 +215,7 @@ def get_manifest(request: Request, batch_id: BatchId, engine: Engine, tenant: Te
 
 
 def _submit(
-    content: bytes, name: str | None, engine: EmbeddedEngine, settings: Settings, tenant: str
+    content: bytes, name: str | None, engine: JobQueue, settings: Settings, tenant: str
 ) -> records.Batch:
     body = batch_body(parsed(content))
     key = key_of(router.prefix, name, body)
@@ -231,7 +231,7 @@ def _submit(
     return engine.batches.submit(tenant, items, key)
 
 
-def _find(engine: EmbeddedEngine, tenant: str, batch_id: str) -> records.Batch:
+def _find(engine: JobQueue, tenant: str, batch_id: str) -> records.Batch:
     batch = engine.batches.get(tenant, batch_id) if WELL_FORMED.fullmatch(batch_id) else None
     if batch is None:
         raise ProblemError("batch_unknown")

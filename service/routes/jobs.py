@@ -130,7 +130,7 @@ async def get_job(request: Request, job_id: JOB_ID, engine: Engine, tenant: Tena
             "model": Job,
             "headers": LOCATION,
         },
-        **problems("origin_refused", "job_unknown"),
+        **problems("origin_refused", "job_unknown", "storage_full"),
     },
 )
 def cancel_job(job_id: JOB_ID, engine: Engine, tenant: Tenant) -> Response:

@@ -1,6 +1,5 @@
 """The records of batches: many jobs, recorded and cancelled in one transaction."""
 
-import math
 import time
 import uuid
 from collections.abc import Callable, Sequence
@@ -10,15 +9,12 @@ from sqlalchemy import Connection, Row, Select, case, func, insert, literal_colu
 
 from worker.jobs.batch import Batch, Entry, Item
 from worker.jobs.database import Database
-from worker.jobs.errors import QueueFullError
 from worker.jobs.idempotency import Key, answered, remember
 from worker.jobs.intake import IsReusable, Request, joinable, new_work
 from worker.jobs.job import FINAL_STATES, PRIORITIES
-from worker.jobs.requests import LARGEST_SEQUENCE, seconds_of_recent_work
+from worker.jobs.requests import LARGEST_SEQUENCE
+from worker.jobs.room import Room
 from worker.jobs.schema import batch_items, batches, jobs, work
-
-ROOM: Final = 4000
-"""Work of batches that may wait: it does not count as waiting for those who ask for one thing."""
 
 
 class Batches:
@@ -26,7 +22,7 @@ class Batches:
 
     Args:
         database: the records.
-        slots: how much work is done at a time.
+        room: how much may wait.
         is_reusable: whether the result of work, given its id and fingerprint, still serves.
         require_open: raises when nothing new is taken.
         arrived: called when there may be new work.
@@ -37,14 +33,14 @@ class Batches:
         self,
         database: Database,
         *,
-        slots: int,
+        room: Room,
         is_reusable: IsReusable,
         require_open: Callable[[], None],
         arrived: Callable[[], None],
         unwanted: Callable[[str], None],
     ) -> None:
         self._database = database
-        self._slots = slots
+        self._room = room
         self._is_reusable = is_reusable
         self._require_open = require_open
         self._arrived = arrived
@@ -198,23 +194,13 @@ class Batches:
                 hurried = update(work).where(work.c.id == row.id).values(priority=urgency)
                 connection.execute(hurried)
         missing = [request for digest, request in wanted.items() if digest not in there]
-        self._require_room(connection, len(missing))
+        self._room.require_for_batch(connection, len(missing))
         rows = new_work(missing, now, in_batch=True)
         if rows:
             connection.execute(insert(work), rows)
         return {digest: row.id for digest, row in there.items()} | {
             row["digest"]: row["id"] for row in rows
         }
-
-    def _require_room(self, connection: Connection, count: int) -> None:
-        waiting = connection.execute(
-            select(func.count())
-            .select_from(work)
-            .where(work.c.state == "queued", work.c.in_batch.is_(True))
-        ).scalar_one()
-        if count and waiting + count > ROOM:
-            seconds = (waiting + count - ROOM) * seconds_of_recent_work(connection) / self._slots
-            raise QueueFullError(waiting, max(1, math.ceil(seconds)))
 
 
 _CANCELLED: Final = jobs.c.cancelled.is_not(None)

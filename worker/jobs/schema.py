@@ -43,10 +43,11 @@ work = Table(
     Column("created", Float, nullable=False),
     Column("started", Float),
     Column("finished", Float),
+    Column("evicted", Float),  # when its result was removed, or found missing
     Column("estimate_seconds", Float),  # what the cost model expected, on one core
     Column("in_batch", Boolean, nullable=False, server_default=false()),
     Index("work_by_id", "id", unique=True),
-    Index("work_in_line", "state", "priority", "sequence"),
+    Index("work_in_turn", "state", "priority", "tenant", "sequence"),
     Index("work_by_digest", "tenant", "digest"),
     Index(
         "work_in_single_flight",
