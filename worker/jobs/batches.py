@@ -100,7 +100,10 @@ class Batches:
             KeyReusedError: the key came with another body before.
         """
         with self._database.reading() as connection:
-            return _replayed(connection, tenant, key)
+            batch = _replayed(connection, tenant, key)
+        if batch is not None:
+            self._database.flush()  # whoever recorded it may not have come to that yet
+        return batch
 
     def get(self, tenant: str, batch_id: str) -> Batch | None:
         """One batch of the tenant."""
