@@ -162,11 +162,9 @@ def test_a_thousand_connections_that_hang_up_leave_nothing_open(server):
             stream.close()
 
     sockets = server.sockets()
-    open_and_hang_up(100)  # the pool of threads is full from here on
-    threads = server.threads()
-    for _ in range(9):
+    for _ in range(10):
         open_and_hang_up(100)
 
     until(lambda: server.sockets() <= sockets, 10)
-    assert server.threads() <= threads + 1
+    assert server.threads() < 60, "the 40 of the pool and the engine's own"
     assert httpx.get(f"{server.url}/livez").status_code == 200
