@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from pathlib import Path
 
 import httpx
@@ -65,8 +66,11 @@ class ToyServer:
                 told = len(found)
 
     def sockets(self) -> int:
-        files = Path(f"/proc/{self.process.pid}/fd").iterdir()
-        return sum(str(file.readlink()).startswith("socket:") for file in files)
+        count = 0
+        for file in Path(f"/proc/{self.process.pid}/fd").iterdir():
+            with suppress(FileNotFoundError):  # closed meanwhile
+                count += str(file.readlink()).startswith("socket:")
+        return count
 
     def threads(self) -> int:
         return len(list(Path(f"/proc/{self.process.pid}/task").iterdir()))
