@@ -28,6 +28,11 @@ def parts(value: object, pointer: str = "") -> Iterator[tuple[str, Schema]]:
                 yield from parts(item, f"{pointer}/{index}")
 
 
+def escaped(key: str) -> str:
+    """Write a key as a part of a JSON pointer (RFC 6901)."""
+    return key.replace("~", "~0").replace("/", "~1")
+
+
 def deepest(value: object, kinds: tuple[type[Schema], ...], pointer: str = "") -> tuple[int, str]:
     """Return how many schemas of the kinds lie within each other at most, and where."""
     if isinstance(value, Schema):
