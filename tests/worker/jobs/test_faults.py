@@ -107,14 +107,17 @@ def test_a_disk_that_is_full_in_the_child_is_told(engine, submit, finish):
 
 
 def test_a_disk_that_is_full_while_publishing_is_told(
-    engine, submit, finish, monkeypatch, tmp_path
+    engine, submit, begin, finish, monkeypatch, tmp_path
 ):
     def fail(descriptor):
         raise OSError(28, "No space left on device")
 
+    gate = tmp_path / "gate"
+    job = begin(engine, submit(engine, do="wait", gate=str(gate)))
     with monkeypatch.context() as patch:
         patch.setattr(files.os, "fsync", fail)
-        failed = finish(engine, submit(engine, do="nothing"))
+        gate.touch()
+        failed = finish(engine, job)
     assert failed.failure["code"] == "storage_full"
     assert list((tmp_path / "data" / "results").iterdir()) == []
     assert finish(engine, submit(engine, do="nothing")).state == "succeeded"
