@@ -22,6 +22,10 @@ SWITCH_SECONDS: Final = 0.0005
 Python's own patience, since answers pass through several threads."""
 
 
+UNREAD_SECONDS: Final = 60
+"""After which the kernel gives up a caller that takes nothing of what was sent to it."""
+
+
 class Server(uvicorn.Server):
     """Goes on answering while the engine drains: the first signal drains, the second one ends."""
 
@@ -89,6 +93,7 @@ def listening(host: str, port: int) -> socket.socket:
 
     It says that it is TCP: only then asyncio switches off Nagle's algorithm, which makes every
     answer on a connection that is kept wait 40 ms for the caller's delayed acknowledgement.
+    The connections it accepts inherit its patience with callers that do not read.
 
     Raises:
         OSError: The address is in use or not of this machine.
@@ -99,6 +104,7 @@ def listening(host: str, port: int) -> socket.socket:
     family, kind, protocol, _, place = found[0]
     listener = socket.socket(family, kind, protocol)
     listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    listener.setsockopt(socket.IPPROTO_TCP, socket.TCP_USER_TIMEOUT, UNREAD_SECONDS * 1000)
     try:
         listener.bind(place)
     except OSError as error:

@@ -49,9 +49,10 @@ class EventStream(Response):
                 group.start_soon(_until_gone, receive, group.cancel_scope)
                 await say(RECONNECT)
                 while True:
+                    is_over = follower.is_over  # asked first: more may come while this is sent
                     if news := self._news(follower):
                         await say(news)
-                    if follower.is_over:
+                    if is_over:
                         break
                     if not await follower.changed(HEARTBEAT_SECONDS):
                         await say(b": still here\n\n")

@@ -16,7 +16,7 @@ from service.documentation import BINARY, ETAG, IF_HEADERS, LOCATION, Responses,
 from service.engine_access import Configuration, Engine, asset_facts
 from service.negotiation import JSON, quality, require_accepted
 from service.problems import ProblemError
-from service.stored_files import stored_file
+from service.stored_files import names, stored_file
 from service.tenants import Tenant
 from service.uploads import FIELD, FORM, measured, passing, stored, upload
 from worker.jobs.queue import JobQueue
@@ -158,7 +158,10 @@ def get_asset(request: Request, sha256: Name, engine: Engine, tenant: Tenant) ->
     facts, path = _find(engine, tenant, sha256)
     accept = request.headers.get("accept")
     if quality(accept, JSON) > quality(accept, facts.media_type):
-        headers = {"ETag": f'"{sha256}-facts"', "Vary": "Accept", "Cache-Control": "no-cache"}
+        etag = f'"{sha256}-facts"'
+        headers = {"ETag": etag, "Vary": "Accept", "Cache-Control": "private, no-cache"}
+        if names(request.headers.get("if-none-match"), etag):
+            return Response(status_code=304, headers=headers)
         return Response(facts.model_dump_json(), headers=headers, media_type=JSON)
     require_accepted(request, facts.media_type)
     headers = {

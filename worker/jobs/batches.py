@@ -5,7 +5,7 @@ import uuid
 from collections.abc import Callable, Sequence
 from typing import Any, Final
 
-from sqlalchemy import Connection, Row, Select, case, func, insert, select, update
+from sqlalchemy import Connection, Row, Select, case, func, insert, literal_column, select, update
 
 from worker.jobs.batch import Batch, Entry, Item
 from worker.jobs.database import Database
@@ -100,7 +100,10 @@ class Batches:
             KeyReusedError: the key came with another body before.
         """
         with self._database.reading() as connection:
-            return _replayed(connection, tenant, key)
+            batch = _replayed(connection, tenant, key)
+        if batch is not None:
+            self._database.flush()  # whoever recorded it may not have come to that yet
+        return batch
 
     def get(self, tenant: str, batch_id: str) -> Batch | None:
         """One batch of the tenant."""
@@ -203,21 +206,14 @@ class Batches:
         }
 
 
-def _states() -> Select[Any]:
-    """The state of each item's job, and all that is needed to sum them up."""
-    cancelled = jobs.c.cancelled.is_not(None)
-    return (
-        select(
-            batch_items.c.batch_id,
-            case((cancelled, "cancelled"), else_=work.c.state).label("state"),
-        )
-        .join(jobs, jobs.c.id == batch_items.c.job_id)
-        .join(work, work.c.id == jobs.c.work_id)
-    )
-
-
-_STATES: Final = _states()
-_ENDED: Final = case((jobs.c.cancelled.is_not(None), jobs.c.cancelled), else_=work.c.finished)
+_CANCELLED: Final = jobs.c.cancelled.is_not(None)
+_STATE: Final = case((_CANCELLED, literal_column("'cancelled'")), else_=work.c.state)
+_ENDED: Final = case((_CANCELLED, jobs.c.cancelled), else_=work.c.finished)
+_STATES: Final[Select[Any]] = (
+    select(batch_items.c.batch_id, _STATE.label("state"))
+    .join(jobs, jobs.c.id == batch_items.c.job_id)
+    .join(work, work.c.id == jobs.c.work_id)
+)
 
 
 def _replayed(connection: Connection, tenant: str, key: Key) -> Batch | None:
@@ -245,7 +241,7 @@ def _summed_up(connection: Connection, rows: Sequence[Row[Any]]) -> list[Batch]:
         func.sum(work.c.progress).label("progress"),
         func.max(_ENDED).label("ended"),
     )
-    by_state = sums.where(batch_items.c.batch_id.in_(ids)).group_by("batch_id", "state")
+    by_state = sums.where(batch_items.c.batch_id.in_(ids)).group_by(batch_items.c.batch_id, _STATE)
     parts: dict[str, list[Row[Any]]] = {batch_id: [] for batch_id in ids}
     for part in connection.execute(by_state):
         parts[part.batch_id].append(part)

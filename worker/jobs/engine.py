@@ -215,7 +215,10 @@ class EmbeddedEngine:
         Raises:
             KeyReusedError: the key came with another body before.
         """
-        return self._requests.replayed(tenant, key)
+        job = self._requests.replayed(tenant, key)
+        if job is not None:
+            self._database.flush()  # whoever recorded it may not have come to that yet
+        return job
 
     def get(self, tenant: str, job_id: str) -> Job | None:
         """One job of the tenant."""
