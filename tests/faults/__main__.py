@@ -19,26 +19,28 @@ def main() -> int:
     """Run every seed; the answer is the exit code."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2, 3])
+    parser.add_argument("--executor", choices=["mixed", "toy"], default="mixed")
     parser.add_argument("--jobs", type=int, default=200)
     parser.add_argument("--faults", type=int, default=30)
     wished = parser.parse_args()
     reports = []
     for seed in wished.seeds:
         print(f"faults: seed {seed}", file=sys.stderr, flush=True)
-        reports.append(run(seed, wished.jobs, wished.faults))
+        reports.append(run(seed, wished))
         print(reports[-1].table(), flush=True)
     return 1 if any(report.complaints for report in reports) else 0
 
 
-def run(seed: int, jobs: int, faults: int) -> Report:
+def run(seed: int, wished: argparse.Namespace) -> Report:
     """Make every picture undisturbed, then all of them again under faults, and compare."""
-    requests = mixed(seed, jobs)
+    requests = mixed(seed, wished.jobs)
+    executor = f"tests.faults.{wished.executor}_executor"
     with tempfile.TemporaryDirectory(prefix="texloom-faults-") as folder:
-        calm = FaultyService(Path(folder) / "calm" / "data").start()
+        calm = FaultyService(Path(folder) / "calm" / "data", executor).start()
         expected = calm.make_all(requests)
         calm.stop()
-        stormy = FaultyService(Path(folder) / "stormy" / "data").start()
-        return Campaign(seed, requests, expected, stormy, faults).run()
+        stormy = FaultyService(Path(folder) / "stormy" / "data", executor).start()
+        return Campaign(seed, requests, expected, stormy, wished.faults).run()
 
 
 if __name__ == "__main__":

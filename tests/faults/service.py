@@ -28,7 +28,7 @@ UNTIL_READY_SECONDS = 180.0
 class FaultyService(RunningService):
     """Starts like any service, on one port for all its lives."""
 
-    def __init__(self, data: Path) -> None:
+    def __init__(self, data: Path, executor: str) -> None:
         data.parent.mkdir(parents=True)
         super().__init__(data)
         self.clock = data.parent / "clock"
@@ -37,6 +37,7 @@ class FaultyService(RunningService):
             probe.bind(("127.0.0.1", 0))
             self.port = probe.getsockname()[1]
         self.url = f"http://127.0.0.1:{self.port}"
+        self._executor = executor
         self._log = bytearray()
 
     def start(self) -> "FaultyService":
@@ -55,7 +56,7 @@ class FaultyService(RunningService):
             "PYTHONPATH": str(ROOT),
         }
         self.process = subprocess.Popen(
-            [sys.executable, "-m", "tests.faults.clock", str(self.clock)],
+            [sys.executable, "-m", "tests.faults.faulty_main", str(self.clock), self._executor],
             cwd=ROOT,
             env=environment,
             stdout=subprocess.DEVNULL,

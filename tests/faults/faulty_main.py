@@ -1,6 +1,7 @@
-"""`python -m service` on a clock that jumps: argv is a file that holds by how many seconds.
+"""`python -m service` on a clock that jumps, with another executor.
 
-Only what the service calls the time of day jumps. What it measures with a clock that cannot jump,
+argv is a file that holds by how many seconds the clock is wrong, and the name of the executor. Only
+what the service calls the time of day jumps. What it measures with a clock that cannot jump,
 it does not notice, which is the point.
 """
 
@@ -8,8 +9,10 @@ import sys
 import threading
 import time
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
 
+from service import app
 from service.__main__ import main
 
 LOOK_SECONDS = 0.05
@@ -32,5 +35,7 @@ def jump(offsets: Path) -> None:
 
 
 if __name__ == "__main__":
-    jump(Path(sys.argv.pop()))
+    clock, executor = sys.argv[1:]
+    jump(Path(clock))
+    app.EmbeddedEngine = partial(app.EmbeddedEngine, executor=executor)
     sys.exit(main())
