@@ -100,7 +100,7 @@ class Campaign:
         seconds = time.monotonic() - began
         self._compare(jobs)
         self._complaints += left_behind(self._service)
-        states = Counter(job["state"] for job in jobs.values())
+        states = Counter(_told(job) for job in jobs.values())
         return Report(self._seed, len(jobs), seconds, states, self._recoveries, self._complaints)
 
     def _submit(self, requests: Sequence[Asked]) -> None:
@@ -214,3 +214,8 @@ class Campaign:
             self._complaints.append(f"{differing} differing")
         if unreasonable:
             self._complaints.append(f"{unreasonable} without a reason")
+
+
+def _told(job: Mapping[str, Any]) -> str:
+    why = job["failure"]
+    return f"{job['state']} ({why['code']})" if why else str(job["state"])

@@ -1,4 +1,4 @@
-"""Real pictures, and among them toys: checkerboards, which stand for quick work without libraries."""
+"""Real pictures, and toys for checkerboards: quick work that needs no library."""
 
 from collections.abc import Callable
 from pathlib import Path
