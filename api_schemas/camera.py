@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 from pydantic import Field, Tag
 
 from api_schemas.base import Length, Schema, Vector
+from api_schemas.model_mesh import Part
 from api_schemas.transforms import MatrixPlacement, by_key
 
 
@@ -48,4 +49,33 @@ class OrthographicCamera(_Camera):
     )
 
 
-Camera = Annotated[PerspectiveCamera | OrthographicCamera, Field(discriminator="type")]
+class FramedCamera(Schema):
+    """Looks at everything there is from one side, as near as it can."""
+
+    type: Literal["framed"]
+    direction: Vector = Field(
+        default=[0.5, 0.4, 1.0], description="From the middle of the scene towards the camera."
+    )
+    up: Vector = Field(default=[0.0, 1.0, 0.0], description="What points upwards in the picture.")
+    fov_y: Annotated[float, Field(ge=0.001, le=3.1)] = Field(
+        default=0.8, description="Angle in radians from the lower to the upper edge of the picture."
+    )
+    margin: Annotated[float, Field(ge=0, le=10)] = Field(
+        default=0.05,
+        description="Free space round the scene, as a part of its size in the picture.",
+    )
+
+
+class ModelCamera(Schema):
+    """A camera that an uploaded model of the scene brings."""
+
+    type: Literal["model"]
+    camera: Part | None = Field(
+        default=None, description="Which one, by name or by index; the first one without."
+    )
+
+
+PosedCamera = PerspectiveCamera | OrthographicCamera
+"""A camera that says itself where it stands."""
+
+Camera = Annotated[PosedCamera | FramedCamera | ModelCamera, Field(discriminator="type")]

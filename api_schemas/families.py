@@ -3,12 +3,21 @@
 A technique's name is written once: its module's name, its `technique` literal, its word in the URL.
 """
 
-from typing import ClassVar, Literal, Self
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal, Self
+
+from pydantic import Field
 
 from api_schemas.base import Schema
 from api_schemas.cost import Cost
 
+if TYPE_CHECKING:
+    from api_schemas.language import MappableNonNegative
+    from api_schemas.maps import NormalMap
+
 Meaning = Literal["colour", "data"]
+AlphaMode = Literal["opaque", "mask", "blend"]
 
 
 class TechniqueSpec(Schema):
@@ -45,7 +54,27 @@ class CoordinatesSpec(TechniqueSpec):
 
 
 class SurfaceSpec(TechniqueSpec):
-    """Says how a surface sends light to the eye."""
+    """Says how a surface sends light to the eye, and how much of what is behind it is seen."""
+
+    opacity: MappableNonNegative = Field(
+        default=1.0,
+        description="How much of what is behind is hidden, where alpha_mode is mask or blend.",
+    )
+    alpha_mode: AlphaMode = Field(
+        default="opaque",
+        description="Whether opacity is ignored, cuts holes, or lets through what is behind. What "
+        "lets light through dims all of its own, highlights and emission too, as in glTF, and is "
+        "drawn after everything else, the farthest middle first.",
+    )
+    alpha_cutoff: Annotated[float, Field(ge=0, le=1)] = Field(
+        default=0.5, description="Opacity below which there is a hole, where alpha_mode is mask."
+    )
+    double_sided: bool = Field(
+        default=True, description="Whether the inner side is drawn as well as the outer one."
+    )
+    normal: NormalMap | None = Field(
+        default=None, description="Tilts the surface in fine detail: a tangent-space normal map."
+    )
 
     def filled(self) -> Self:
         """Return the surface with every parameter that follows another one set to its value."""

@@ -3,19 +3,21 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from api_schemas.camera import Camera
+from api_schemas.camera import Camera, FramedCamera, ModelCamera
 from api_schemas.families import SurfaceSpec, TextureSpec
-from api_schemas.geometry import IDENTITY, Affine, affine, cross, length, triple
+from api_schemas.geometry import IDENTITY, Affine, Vector3, affine, cross, length, triple
 from api_schemas.lights import DirectionalLight, Light, SpotLight
 from api_schemas.maps import MAPS_MAX, Map
+from api_schemas.model_mesh import ModelMesh
+from api_schemas.output import RenderOutput
 from api_schemas.requests import RenderRequest, Request
-from api_schemas.scene import Node
+from api_schemas.scene import NODES_MAX, Node
 from api_schemas.textures.image import ImageSpec
 from api_schemas.transforms import MatrixPlacement
-from api_schemas.walk import deepest, parts
+from api_schemas.walk import deepest, escaped, parts
 
 LEVELS_MAX = 32
-NODES_MAX = 256
+TEXTURES_MAX = 256
 SHORTEST_DIRECTION = 1e-12
 SMALLEST_SINE = 1e-7
 """Sine of the angle between viewing and up direction below which float32 cannot tell up."""
@@ -36,20 +38,24 @@ def obstacles(request: Request) -> list[Obstacle]:
     if found or not isinstance(request, RenderRequest):
         return found
     found += _camera(request.scene.camera)
-    for index, light in enumerate(request.scene.lights):
+    for index, light in enumerate(request.scene.lights or []):
         found += _light(light, f"/scene/lights/{index}")
     for index, node in enumerate(request.scene.nodes):
         found += _node(node, f"/scene/nodes/{index}", IDENTITY)
-    return found
+    return found + list(_layers(request.output))
 
 
 def assets_in(request: Request) -> list[tuple[str, str]]:
     """Return the pointer and the SHA-256 of every asset a request speaks of."""
-    return [
-        (f"{pointer}/asset", part.asset)
-        for pointer, part in parts(request)
-        if isinstance(part, ImageSpec)
-    ]
+    found = []
+    for pointer, part in parts(request):
+        if isinstance(part, ImageSpec | ModelMesh):
+            found.append((f"{pointer}/asset", part.asset))
+        if isinstance(part, ModelMesh):
+            found += [
+                (f"{pointer}/files/{escaped(name)}", asset) for name, asset in part.files.items()
+            ]
+    return found
 
 
 def _limits(request: Request) -> Iterator[Obstacle]:
@@ -58,24 +64,45 @@ def _limits(request: Request) -> Iterator[Obstacle]:
         yield Obstacle(
             "nesting_too_deep", place, f"{levels} levels within each other; at most {LEVELS_MAX}"
         )
-    count = 0
+    textures, nodes = 0, 0
     for pointer, part in parts(request):
-        count += isinstance(part, TextureSpec | Node)
+        textures += isinstance(part, TextureSpec)
+        nodes += isinstance(part, Node)
         if isinstance(part, SurfaceSpec):
             maps = sum(isinstance(value, Map) for _, value in parts(part))
             if maps > MAPS_MAX:
                 yield Obstacle(
                     "too_many_maps", pointer, f"{maps} maps on one surface; at most {MAPS_MAX}"
                 )
-    if count > NODES_MAX:
+    for count, limit, things in (
+        (textures, TEXTURES_MAX, "textures"),
+        (nodes, NODES_MAX, "scene nodes"),
+    ):
+        if count > limit:
+            yield Obstacle("too_many_nodes", "", f"{count} {things}; at most {limit}")
+
+
+def _layers(output: RenderOutput) -> Iterator[Obstacle]:
+    if output.format != "exr" and len(output.layers) > 1:
         yield Obstacle(
-            "too_many_nodes", "", f"{count} textures and scene nodes together; at most {NODES_MAX}"
+            "layers_need_exr",
+            "/output/layers",
+            f"a PNG shows one layer, not {len(output.layers)}; an EXR holds them all",
         )
 
 
-def _camera(camera: Camera) -> Iterator[Obstacle]:
+def _camera(camera: Camera | None) -> Iterator[Obstacle]:
     code = "camera_degenerate"
     pointer = "/scene/camera"
+    if camera is None or isinstance(camera, ModelCamera):
+        return
+    if isinstance(camera, FramedCamera):
+        direction = triple(camera.direction)
+        if length(direction) < SHORTEST_DIRECTION:
+            yield Obstacle(code, f"{pointer}/direction", "the direction has no length")
+        else:
+            yield from _upright(direction, triple(camera.up), f"{pointer}/up")
+        return
     if camera.near >= camera.far:
         yield Obstacle(
             code, f"{pointer}/near", f"near {camera.near:g} is not below far {camera.far:g}"
@@ -92,10 +119,16 @@ def _camera(camera: Camera) -> Iterator[Obstacle]:
     view = (target[0] - eye[0], target[1] - eye[1], target[2] - eye[2])
     if length(view) < SHORTEST_DIRECTION:
         yield Obstacle(code, f"{pointer}/pose/target", "eye and target are the same point")
-    elif length(up) < SHORTEST_DIRECTION:
-        yield Obstacle(code, f"{pointer}/pose/up", "up has no direction")
+    else:
+        yield from _upright(view, up, f"{pointer}/pose/up")
+
+
+def _upright(view: Vector3, up: Vector3, pointer: str) -> Iterator[Obstacle]:
+    code = "camera_degenerate"
+    if length(up) < SHORTEST_DIRECTION:
+        yield Obstacle(code, pointer, "up has no direction")
     elif length(cross(view, up)) <= SMALLEST_SINE * length(view) * length(up):
-        yield Obstacle(code, f"{pointer}/pose/up", "the camera looks along its up vector")
+        yield Obstacle(code, pointer, "the camera looks along its up vector")
 
 
 def _light(light: Light, pointer: str) -> Iterator[Obstacle]:

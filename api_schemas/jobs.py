@@ -29,6 +29,9 @@ class Result(Schema):
     counts: dict[str, Annotated[int, Field(ge=0)]] = Field(
         default={}, description="What was drawn: triangles, programs compiled and so on."
     )
+    warnings: list[Annotated[str, Field(max_length=1024)]] = Field(
+        default=[], description="What in the uploads could not be honoured, and was left out."
+    )
 
 
 class JobLinks(Schema):

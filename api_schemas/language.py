@@ -18,7 +18,7 @@ from typing_extensions import TypeAliasType
 from api_schemas import coordinates, surfaces, textures
 from api_schemas.base import Color, NonNegative, Number, Schema
 from api_schemas.families import CoordinatesSpec, SurfaceSpec, TechniqueSpec, TextureSpec
-from api_schemas.maps import ColorMap, Map, NumberMap
+from api_schemas.maps import ColorMap, Map, NormalMap, NumberMap, ScaledMap
 
 
 def specs_in(folder: ModuleType, family: type[TechniqueSpec]) -> dict[str, type[TechniqueSpec]]:
@@ -114,9 +114,10 @@ def _complete() -> None:
             "MappableNonNegative",
             "MappableColor",
         )
-    }
+    } | {"NormalMap": NormalMap}
     members = [spec for family in FAMILIES.values() for spec in family.values()]
-    models: list[type[Schema]] = [Map, ColorMap, NumberMap, *members]
+    models: list[type[Schema]] = [Map, ScaledMap, ColorMap, NumberMap, NormalMap]
+    models += [SurfaceSpec, *members]
     for model in models:
         module = importlib.import_module(model.__module__)
         model.model_rebuild(force=True, _types_namespace={**vars(module), **names})

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import Field
 
-from api_schemas.base import Angle, Number, Pair, Schema
+from api_schemas.base import Angle, Color, Number, Pair, Schema
 
 if TYPE_CHECKING:
     from api_schemas.families import Meaning
@@ -46,7 +46,7 @@ class TextureTransform(Schema):
 
 
 class Map(Schema):
-    """What colour maps and number maps share."""
+    """What all maps share: where to look, and how texels become a pixel."""
 
     coordinates: Coordinates = Field(
         default={"technique": "uv"},
@@ -70,20 +70,48 @@ class Map(Schema):
         description="How texels become a pixel: hard texels, smooth when near, smooth when far, "
         "or sharp at grazing angles too.",
     )
+
+
+class ScaledMap(Map):
+    """What is read of it is scaled and shifted."""
+
     scale: Number = Field(default=1.0, description="Multiplies what is read.")
     bias: Number = Field(default=0.0, description="Is added after the scale.")
 
 
-class ColorMap(Map):
+class ColorMap(ScaledMap):
     """A texture in the place of a colour; one channel becomes a grey."""
 
     texture: Annotated[Texture, COLOUR] = Field(description="The picture, of any technique.")
+    tint: Color = Field(
+        default=[1.0, 1.0, 1.0], description="Linear colour that multiplies what is read."
+    )
 
 
-class NumberMap(Map):
+class NumberMap(ScaledMap):
     """A texture in the place of a number: one channel of it, never gamma-decoded."""
 
     texture: Annotated[Texture, DATA] = Field(description="The picture, of any technique.")
     channel: Literal["r", "g", "b", "a"] = Field(
         default="r", description="Which channel of the texture is read."
+    )
+
+
+class NormalMap(Map):
+    """A texture in the place of a normal: x, y, z along tangent, bitangent and normal.
+
+    The tangent points where u grows, the bitangent where v grows.
+    """
+
+    texture: Annotated[Texture, DATA] = Field(description="The picture, of any technique.")
+    strength: Number = Field(
+        default=1.0, description="Multiplies the tilt: 0 is flat, negative turns it round."
+    )
+    green: Literal["up", "down"] = Field(
+        default="up",
+        description="Whether green grows with v, as in OpenGL and glTF, or against it.",
+    )
+    range: Literal["unit", "signed"] = Field(
+        default="unit",
+        description="Whether the picture holds 0..1, with 0.5 for none, or the numbers themselves.",
     )

@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from api_schemas.base import WHOLE, Length, Schema
+from api_schemas.model_mesh import ModelMesh
 
 Count = Annotated[int, Field(ge=1, le=4096), WHOLE]
 RoundCount = Annotated[int, Field(ge=3, le=4096), WHOLE]
@@ -145,4 +146,7 @@ class Disk(Schema):
         return self.radius
 
 
-Mesh = Annotated[Cylinder | Sphere | Plane | Box | Torus | Disk, Field(discriminator="type")]
+Primitive = Cylinder | Sphere | Plane | Box | Torus | Disk
+"""A shape made from numbers alone."""
+
+Mesh = Annotated[Primitive | ModelMesh, Field(discriminator="type")]

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from api_schemas.assets import AssetFacts
+from api_schemas.assets import AssetFacts, ImageFacts
 from api_schemas.base import Schema
 from api_schemas.families import Meaning
 from api_schemas.output import Format
@@ -21,9 +21,14 @@ def normalise(request: Request, file_format: Format, facts: Mapping[str, AssetFa
         if not isinstance(part, ImageSpec) or part.encoding != "auto":
             return part
         asset = facts[part.asset]
-        encoded = meaning == "colour" and not asset.float
+        encoded = meaning == "colour" and isinstance(asset, ImageFacts) and not asset.float
         return part.model_copy(update={"encoding": "srgb" if encoded else "linear"})
 
-    output = request.output.model_copy(update={"format": file_format})
     settled: TextureRequest | RenderRequest = rewrite(request, settle)
-    return settled.model_copy(update={"output": output})
+    return formatted(settled, file_format)
+
+
+def formatted(request: Request, file_format: Format) -> Request:
+    """Settle the file format."""
+    output = request.output.model_copy(update={"format": file_format})
+    return request.model_copy(update={"output": output})

@@ -8,10 +8,13 @@ from pydantic import Field
 
 from api_schemas.base import Schema
 from api_schemas.camera import Camera
-from api_schemas.language import Surface
+from api_schemas.language import MappableColor, Surface
 from api_schemas.lights import LIGHTS_MAX, Light
 from api_schemas.meshes import Mesh
 from api_schemas.transforms import Placement, Transform
+
+NODES_MAX = 1024
+"""Nodes of one scene."""
 
 
 class Node(Schema):
@@ -25,9 +28,11 @@ class Node(Schema):
     )
     mesh: Mesh | None = Field(default=None, description="The shape drawn here.")
     surface: Surface | None = Field(
-        default=None, description="How the shape reflects light; matt grey Phong without one."
+        default=None,
+        description="How the shape reflects light; without one a model has its own materials, and "
+        "everything else is matt grey Phong.",
     )
-    children: Annotated[list[Node], Field(max_length=256)] = Field(
+    children: Annotated[list[Node], Field(max_length=NODES_MAX)] = Field(
         default=[], description="Nodes that move with this one."
     )
 
@@ -35,8 +40,19 @@ class Node(Schema):
 class Scene(Schema):
     """Everything a picture is made of."""
 
-    camera: Camera = Field(description="The eye.")
-    lights: Annotated[list[Light], Field(max_length=LIGHTS_MAX)] = Field(
-        default=[], description="What shines; without any, only emission and unlit surfaces show."
+    camera: Camera | None = Field(
+        default=None,
+        description="The eye; without one, the first camera that a model brings, else one that "
+        "sees everything.",
     )
-    nodes: Annotated[list[Node], Field(max_length=256)] = Field(description="What is there.")
+    lights: Annotated[list[Light], Field(max_length=LIGHTS_MAX)] | None = Field(
+        default=None,
+        description="What shines: nothing if empty, so that only emission and unlit surfaces show. "
+        "Without the list, the lights that models bring, else a lamp behind the eye.",
+    )
+    background: MappableColor | None = Field(
+        default=None,
+        description="What is seen where nothing is: a linear colour, or a picture over the whole "
+        "width and height; transparent without.",
+    )
+    nodes: Annotated[list[Node], Field(max_length=NODES_MAX)] = Field(description="What is there.")

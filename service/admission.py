@@ -9,7 +9,7 @@ from api_schemas.cost import Cost
 from api_schemas.digest import digest
 from api_schemas.estimate import estimate
 from api_schemas.feasibility import assets_in, obstacles
-from api_schemas.normalise import normalise
+from api_schemas.normalise import formatted, normalise
 from api_schemas.output import Format
 from api_schemas.problems import CostFigures, Obstruction
 from api_schemas.requests import Kind, RenderRequest, Request
@@ -31,6 +31,7 @@ class Finding:
 
 def examine(request: Request, file_format: Format, find_facts: FindFacts, limit: Cost) -> Finding:
     """Find out whether a request can be done, what it takes, and what it is called."""
+    request = formatted(request, file_format)
     problems = [
         Obstruction(code=item.code, pointer=item.pointer, message=item.message)
         for item in obstacles(request)

@@ -21,6 +21,9 @@ from worker.jobs.intake import Request as Work
 TIMES_THE_COST_OF_ONE: Final = 60
 """What a batch may cost, in the longest requests that are taken: an hour, where one is a minute."""
 
+BYTES_MAX: Final = 64 << 20
+"""Of all requests of a batch together, written out: a sweep of a large scene could be a gigabyte."""
+
 
 @dataclass(frozen=True, slots=True)
 class _Wanted:
@@ -59,6 +62,7 @@ def items_of(
     problems: list[Obstruction] = []
     items: list[Item] = []
     costs: dict[str, float] = {}
+    length = 0
     for number, wanted in enumerate(_wanted(body)):
         asked = wanted.request
         priority = asked.priority if "priority" in asked.model_fields_set else "batch"
@@ -70,6 +74,13 @@ def items_of(
             continue
         settled = finding.request.model_copy(update={"priority": priority})
         costs[finding.digest] = finding.estimate.seconds
+        length += len(settled.model_dump_json())
+        if length > BYTES_MAX:
+            raise ProblemError(
+                "batch_too_large",
+                f"{number + 1} of its requests have more than {BYTES_MAX} bytes together",
+                pointer="",
+            )
         work = Work(
             tenant=tenant,
             kind=kind_of(settled),

@@ -5,7 +5,7 @@ from typing import Annotated
 from fastapi import Depends
 from starlette.requests import Request
 
-from api_schemas.assets import AssetFacts
+from api_schemas.assets import ASSET_FACTS, AssetFacts
 from service.settings import Settings
 from worker.jobs.queue import JobQueue
 
@@ -29,4 +29,4 @@ Configuration = Annotated[Settings, Depends(settings)]
 def asset_facts(engine: JobQueue, tenant: str, sha256: str) -> AssetFacts | None:
     """Return what was measured of one of the tenant's assets."""
     asset = engine.assets.get(tenant, sha256)
-    return None if asset is None else AssetFacts.model_validate(asset.facts)
+    return None if asset is None else ASSET_FACTS.validate_python(asset.facts)

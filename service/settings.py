@@ -75,8 +75,9 @@ class Settings(BaseSettings):
         "rough.",
     )
     body_limit_bytes: Annotated[int, Field(ge=1024)] = Field(
-        default=MEBIBYTE,
-        description="Longest JSON body. Room for the largest scene that the other limits allow.",
+        default=4 * MEBIBYTE,
+        description="Longest JSON body. Room for 1024 nodes with matrices and surfaces of their "
+        "own.",
     )
     upload_limit_bytes: Annotated[int, Field(ge=1024)] = Field(
         default=256 * MEBIBYTE,

@@ -11,7 +11,7 @@ from starlette.datastructures import UploadFile
 from starlette.formparsers import MultiPartException, MultiPartParser
 from starlette.requests import Request
 
-from api_schemas.assets import AssetFacts
+from api_schemas.assets import ASSET_FACTS, AssetFacts
 from api_schemas.problems import Obstruction
 from service.limited_body import chunks
 from service.problems import TABLE, ProblemError
@@ -66,7 +66,7 @@ def measured(engine: JobQueue, path: Path, sha256: str, limit_seconds: float) ->
         code = error.failure["code"]
         known = code if TABLE.get(code, (0, ""))[0] == 409 else "asset_unusable"
         raise ProblemError(known, error.failure["message"]) from None
-    return AssetFacts.model_validate(facts | {"sha256": sha256, "bytes": path.stat().st_size})
+    return ASSET_FACTS.validate_python(facts | {"sha256": sha256, "bytes": path.stat().st_size})
 
 
 @contextmanager

@@ -4,7 +4,7 @@ import shutil
 from pathlib import Path
 from typing import Any
 
-from api_schemas.assets import AssetFacts
+from api_schemas.assets import ImageFacts
 from api_schemas.digest import digest
 from api_schemas.normalise import normalise
 from api_schemas.requests import REQUESTS
@@ -34,12 +34,12 @@ def run_example(name: str, out: Path, assets: Path, **output: Any) -> dict[str, 
     return run_job.run(order, out, _unreported)
 
 
-def _upload(path: Path, asset: str, folder: Path) -> AssetFacts:
+def _upload(path: Path, asset: str, folder: Path) -> ImageFacts:
     stored = folder / asset[:2] / asset
     stored.parent.mkdir(parents=True, exist_ok=True)
     shutil.copy(path, stored)
     measured = measure_asset.run({"path": str(stored)}, folder / "unused", _unreported)
-    return AssetFacts(**measured, sha256=asset, bytes=path.stat().st_size)
+    return ImageFacts(**measured, sha256=asset, bytes=path.stat().st_size)
 
 
 def _unreported(_share: float, _stage: str) -> None:

@@ -75,6 +75,11 @@ class _Drawer:
         return '"#/$defs/Texture"' in json.dumps(schema)
 
     def object(self, schema: dict[str, Any], levels: int) -> st.SearchStrategy[Any]:
+        if "properties" not in schema:
+            names = st.text(st.characters(codec="utf-8"), min_size=1, max_size=8)
+            return st.dictionaries(
+                names, self.value(schema["additionalProperties"], levels), max_size=2
+            )
         fields = {name: self.value(s, levels) for name, s in schema["properties"].items()}
         required = set(schema.get("required", ()))
         return st.fixed_dictionaries(

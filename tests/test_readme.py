@@ -10,6 +10,7 @@ from api_schemas import feasibility, meshes
 from api_schemas.lights import LIGHTS_MAX
 from api_schemas.maps import MAPS_MAX, Filter, Wrap
 from api_schemas.output import SIDE_MAX
+from api_schemas.scene import NODES_MAX
 from service.json_body import DEPTH_MAX
 from service.pointers import MESSAGES
 from service.problems import TABLE
@@ -57,7 +58,8 @@ def test_every_code_of_a_mistake_in_a_body_is_told() -> None:
         f"{SIDE_MAX} pixels a side",
         f"{TEXELS_MAX} in an upload",
         f"{feasibility.LEVELS_MAX} levels",
-        f"{feasibility.NODES_MAX} textures and nodes",
+        f"{feasibility.TEXTURES_MAX} textures",
+        f"{NODES_MAX} nodes",
         f"{MAPS_MAX} maps on a surface",
         f"{LIGHTS_MAX} lights",
         f"{DEPTH_MAX} levels of JSON",

@@ -1,33 +1,62 @@
 """The finished file: a picture becomes a PNG or an EXR as the request's output says."""
 
+from collections.abc import Iterable, Mapping
+from itertools import chain
 from pathlib import Path
 
-from api_schemas.output import MEDIA_TYPES, Output
+import numpy as np
+
+from api_schemas.output import MEDIA_TYPES, Output, PngBits
 from api_schemas.version import VERSION
 from worker.images import image_io
 from worker.images.image import Image
+from worker.rendering.packing import PICTURE
+
+_EXR_NAMES = {
+    PICTURE: "",
+    "depth": "Z",
+    "position": "P",
+    "normal": "N",
+    "geometric_normal": "Ng",
+    "tangent": "T",
+}
 
 
-def write(image: Image, output: Output, digest: str, path: Path) -> str:
-    """Write a picture to a path and return the file's media type.
+def write(bands: Iterable[Mapping[str, Image]], output: Output, digest: str, path: Path) -> str:
+    """Write a picture, or one layer of it, to a path and return the file's media type.
 
     A PNG holds straight alpha and, for colour, sRGB after exposure and tone curve; an EXR holds
-    the linear premultiplied light itself. Equal arguments give equal bytes.
+    the linear premultiplied light itself and every layer. Equal arguments give equal bytes,
+    however the picture is cut into bands.
+
+    Args:
+        bands: The rows from the top: the picture as PICTURE, and layers by their names.
+        output: What kind of file is wanted.
+        digest: Of the request.
+        path: Where the file goes.
+
+    Raises:
+        OSError: The file cannot be written.
     """
+    height = output.size[1]
     if output.format == "exr":
-        image_io.encode_exr(
-            {"": image},
+        image_io.write_exr(
+            ({_EXR_NAMES.get(name, name): band[name] for name in band} for band in bands),
+            height,
             path,
             pixel_type=output.exr_type,
             digest=digest,
             version=VERSION,
         )
         return MEDIA_TYPES["exr"]
+    pictures = (_shown(band, output.png_bits) for band in bands)
+    first = next(pictures)
     transfer = output.encoding
     if transfer == "auto":
-        transfer = "srgb" if image.meaning == "colour" else "linear"
-    image_io.encode_png(
-        image,
+        transfer = "srgb" if first.meaning == "colour" else "linear"
+    image_io.write_png(
+        chain([first], pictures),
+        height,
         path,
         bits=output.png_bits,
         transfer=transfer,
@@ -35,3 +64,22 @@ def write(image: Image, output: Output, digest: str, path: Path) -> str:
         tone_curve=output.tone_curve,
     )
     return MEDIA_TYPES["png"]
+
+
+def _shown(band: Mapping[str, Image], bits: PngBits) -> Image:
+    """Return what a PNG shows: the picture, or the layer beside it in numbers from 0 to 1.
+
+    Directions are n / 2 + 1/2. Depth is 1 / (1 + Z): bright near the eye, black where nothing is.
+    An id is its own code. uv are red and green. What else lies outside of 0..1 is cut off.
+    """
+    name, image = list(band.items())[-1]
+    pixels = image.pixels
+    if name in ("normal", "geometric_normal", "tangent"):
+        pixels = pixels * np.float32(0.5) + np.float32(0.5)
+    elif name == "depth":
+        pixels = np.reciprocal(np.float32(1) + pixels)
+    elif name in ("object_id", "material_id"):
+        pixels = pixels / np.float32(2**bits - 1)
+    elif name == "uv":
+        pixels = np.concatenate([pixels, np.zeros_like(pixels[..., :1])], axis=2)
+    return Image(pixels, image.meaning)

@@ -4,18 +4,24 @@ This is the executor that the door in `worker.jobs` knows by name and loads in i
 """
 
 import hashlib
+import time
 from pathlib import Path
 from typing import Any
 
 from api_schemas.families import Meaning, TextureSpec
+from api_schemas.feasibility import assets_in
 from api_schemas.requests import REQUESTS, RenderRequest, Request
 from api_schemas.textures.image import ImageSpec
 from worker import result_file, synthesis
+from worker.errors import AssetMissingError
 from worker.fingerprint import fingerprint
+from worker.geometry import models
 from worker.images.image import Image
 from worker.rendering import renderer
+from worker.rendering.packing import PICTURE
 from worker.rendering.scene_builder import TextureMaker
-from worker.stages import Report, Stages
+from worker.stages import Report, Stages, Watch
+from worker.uploaded_models import UploadedModels
 from worker.uploaded_pictures import UploadedPictures
 
 
@@ -25,7 +31,9 @@ def warm(report: Report) -> dict[str, Any]:
     Returns:
         `fingerprint`: everything outside a request that decides pixels.
     """
-    synthesis.warm(lambda share, name: report(0.5 * share, name))
+    report(0.0, "models")
+    models.warm()
+    synthesis.warm(lambda share, name: report(0.1 + 0.4 * share, name))
     renderer.warm(lambda share, name: report(0.5 + 0.5 * share, name))
     report(1.0, "ready")
     return {"fingerprint": fingerprint()}
@@ -40,38 +48,65 @@ def run(request: dict[str, Any], out: Path, report: Report) -> dict[str, Any]:
         report: Told the share of the job that is done, 0..1, and the name of the stage.
 
     Returns:
-        JSON-able facts: media_type, bytes, sha256, width, height, timings in milliseconds, counts.
+        JSON-able facts: media_type, bytes, sha256, width, height, timings in milliseconds, counts,
+        warnings.
 
     Raises:
         WorkerError: The job cannot be done; its code says why.
     """
     body: Request = REQUESTS[request["kind"]].model_validate(request["body"])
+    width, height = body.output.size
     stages = Stages(report)
     timings, counts = stages.timings, dict[str, int]()
+    warnings: tuple[str, ...] = ()
     with stages.stage("find", 0.0, 0.02):
-        pictures = UploadedPictures(Path(request["assets"]), body)
+        assets = Path(request["assets"])
+        pictures = UploadedPictures(assets)
+        uploads = UploadedModels(assets, pictures)
+        _find(body, assets)
     if isinstance(body, RenderRequest):
-        with stages.stage("render", 0.02, 0.85) as progress:
-            drawn = renderer.render(body.scene, body.output, _maker(pictures), progress)
-            image, counts = drawn.image, drawn.counts
-            timings |= drawn.timings
+        # A band is written while the next one is waiting to be drawn.
+        with stages.stage("render", 0.02, 0.98) as progress:
+            drawn = renderer.render(
+                body.scene, body.output, _maker(pictures), uploads.read, progress
+            )
+            bands = Watch(drawn.bands)
+            start = time.perf_counter()
+            media_type = result_file.write(bands, body.output, request["digest"], out)
+            encoding = 1000 * (time.perf_counter() - start - bands.seconds)
+        timings["encode_ms"] = round(encoding, 3)
+        timings["render_ms"] = round(timings["render_ms"] - encoding, 3)
+        timings |= drawn.timings
+        counts, warnings = drawn.counts, drawn.warnings
     else:
         with stages.stage("synthesise", 0.02, 0.85):
-            width, height = body.output.size
             image = synthesis.synthesize(body.texture, (width, height), pictures.read)
-    with stages.stage("encode", 0.85, 0.98):
-        media_type = result_file.write(image, body.output, request["digest"], out)
+        with stages.stage("encode", 0.85, 0.98):
+            band = {PICTURE: image}
+            media_type = result_file.write([band], body.output, request["digest"], out)
     with stages.stage("hash", 0.98, 1.0), out.open("rb") as file:
         sha256 = hashlib.file_digest(file, "sha256").hexdigest()
     return {
         "media_type": media_type,
         "bytes": out.stat().st_size,
         "sha256": sha256,
-        "width": image.width,
-        "height": image.height,
+        "width": width,
+        "height": height,
         "timings": timings,
         "counts": counts,
+        "warnings": list(warnings),
     }
+
+
+def _find(body: Request, assets: Path) -> None:
+    """Look whether every asset of a request is stored.
+
+    Raises:
+        AssetMissingError: The first one that is not.
+    """
+    for pointer, asset in assets_in(body):
+        if not (assets / asset[:2] / asset).is_file():
+            raise AssetMissingError("the asset is not stored any more", pointer)
 
 
 def _maker(pictures: UploadedPictures) -> TextureMaker:

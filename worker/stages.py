@@ -1,11 +1,38 @@
 """Where a job is, and where its time went."""
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
+from typing import Generic, TypeVar
 
+T = TypeVar("T")
 Report = Callable[[float, str], None]
 """Told the share of something that is done, 0..1, and the name of its stage."""
+
+
+class Watch(Generic[T]):
+    """Passes things on and adds up the time it takes to make them.
+
+    Attributes:
+        seconds: Spent so far.
+    """
+
+    def __init__(self, things: Iterable[T]) -> None:
+        """Take what is made while it is read."""
+        self._things = iter(things)
+        self.seconds = 0.0
+
+    def __iter__(self) -> Iterator[T]:
+        """Make one after the other."""
+        return self
+
+    def __next__(self) -> T:
+        """Make the next one."""
+        start = time.perf_counter()
+        try:
+            return next(self._things)
+        finally:
+            self.seconds += time.perf_counter() - start
 
 
 class Stages:

@@ -1,11 +1,11 @@
-"""The uploaded pictures a request speaks of, read when they are needed."""
+"""The pictures a request speaks of, uploaded or inside its models, read when they are needed."""
 
+import tempfile
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from api_schemas.families import Meaning
-from api_schemas.feasibility import assets_in
-from api_schemas.requests import Request
 from api_schemas.textures.image import ImageSpec
 from worker.errors import AssetMissingError
 from worker.images import image_io
@@ -18,25 +18,30 @@ if TYPE_CHECKING:
 class UploadedPictures:
     """The pictures of one request, by the hash of their files."""
 
-    def __init__(self, folder: Path, request: Request) -> None:
-        """Find every picture, and decode none.
-
-        Raises:
-            AssetMissingError: The request names a picture that is not in the folder.
-        """
+    def __init__(self, folder: Path) -> None:
+        """Look for pictures in the folder of assets."""
         self._folder = folder
-        for pointer, asset in assets_in(request):
-            if not self._path(asset).is_file():
-                raise AssetMissingError("the asset is not stored any more", pointer)
+        self._embedded: dict[str, bytes] = {}
+
+    def embed(self, pictures: Mapping[str, bytes]) -> None:
+        """Take pictures that lie inside a model, as encoded files by their SHA-256."""
+        self._embedded |= pictures
 
     def read(self, spec: ImageSpec, meaning: Meaning) -> Image:
         """Decode a picture in linear light at its own size.
 
         Raises:
+            AssetMissingError: There is no such picture.
             UnusableAssetError: The file is damaged.
         """
         transfer: Transfer = "srgb" if spec.encoding == "srgb" else "linear"
-        return image_io.read(self._path(spec.asset), transfer, meaning)
-
-    def _path(self, asset: str) -> Path:
-        return self._folder / asset[:2] / asset
+        use_alpha = spec.alpha == "use"
+        if spec.asset in self._embedded:
+            with tempfile.NamedTemporaryFile() as file:
+                file.write(self._embedded[spec.asset])
+                file.flush()
+                return image_io.read(Path(file.name), transfer, meaning, alpha=use_alpha)
+        path = self._folder / spec.asset[:2] / spec.asset
+        if not path.is_file():
+            raise AssetMissingError("the asset is not stored any more")
+        return image_io.read(path, transfer, meaning, alpha=use_alpha)

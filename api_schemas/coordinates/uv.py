@@ -15,6 +15,7 @@ class UvSpec(CoordinatesSpec):
     equation: ClassVar[str] = "(u, v) interpolated perspective-correctly over each triangle"
 
     technique: Literal["uv"]
-    set: Annotated[int, Field(ge=0, le=0), WHOLE] = Field(
-        default=0, description="Which set of the mesh's coordinates; primitives have one."
+    set: Annotated[int, Field(ge=0, le=3), WHOLE] = Field(
+        default=0,
+        description="Which set of the mesh's coordinates; its first one where it has no such set.",
     )

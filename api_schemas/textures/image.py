@@ -21,3 +21,7 @@ class ImageSpec(TextureSpec):
         description="How numbers in the file mean light: auto takes 8 and 16 bit pictures in the "
         "place of a colour as sRGB, everything else as linear.",
     )
+    alpha: Literal["use", "ignore"] = Field(
+        default="use",
+        description="Whether colour fades with the picture's alpha or is taken as if it had none.",
+    )

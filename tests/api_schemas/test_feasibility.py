@@ -112,11 +112,21 @@ def test_textures_nest_up_to_32_levels(levels, codes):
     assert [code for code, _ in found(request)] == codes
 
 
-@pytest.mark.parametrize(("count", "codes"), [(256, []), (257, ["too_many_nodes"])])
-def test_a_scene_has_up_to_256_nodes(count, codes):
-    halves = [node({}, *[node({})] * (count - 129)), *[node({})] * 128]
+@pytest.mark.parametrize(("count", "codes"), [(1024, []), (1025, ["too_many_nodes"])])
+def test_a_scene_has_up_to_1024_nodes(count, codes):
+    halves = [node({}, *[node({})] * (count - 513)), *[node({})] * 512]
 
     assert [code for code, _ in found(scene(nodes=halves))] == codes
+
+
+@pytest.mark.parametrize(("count", "codes"), [(256, []), (257, ["too_many_nodes"])])
+def test_a_scene_has_up_to_256_textures_whatever_the_nodes(count, codes):
+    surface = {"technique": "unlit", "color": {"texture": {"technique": "perlin"}}}
+    plain = [node({})] * 500
+
+    assert [
+        c for c, _ in found(scene(nodes=[{**node({}), "surface": surface}] * count + plain))
+    ] == codes
 
 
 def test_a_surface_has_up_to_so_many_maps(monkeypatch):
@@ -152,3 +162,20 @@ def test_assets_are_found_wherever_a_texture_may_stand():
         ("/scene/nodes/0/surface/diffuse_color/texture/asset", first),
         ("/scene/nodes/0/surface/exponent/texture/input/asset", second),
     ]
+
+
+@pytest.mark.parametrize(
+    ("file_format", "layers", "codes"),
+    [
+        ("png", [], []),
+        ("png", ["depth"], []),
+        ("png", ["depth", "uv"], [("layers_need_exr", "/output/layers")]),
+        (None, ["depth", "uv"], [("layers_need_exr", "/output/layers")]),
+        ("exr", ["depth", "uv"], []),
+    ],
+)
+def test_a_png_shows_one_layer(file_format, layers, codes):
+    request = scene().model_dump()
+    request["output"] |= {"format": file_format, "layers": layers}
+
+    assert found(RenderRequest.model_validate(request)) == codes

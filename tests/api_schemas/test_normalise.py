@@ -1,6 +1,6 @@
 import pytest
 
-from api_schemas.assets import AssetFacts
+from api_schemas.assets import ImageFacts
 from api_schemas.normalise import normalise
 from api_schemas.requests import RenderRequest
 
@@ -9,7 +9,7 @@ ASSET = "a" * 64
 
 def facts(bits, floating):
     return {
-        ASSET: AssetFacts(
+        ASSET: ImageFacts(
             sha256=ASSET,
             kind="image",
             media_type="image/png",

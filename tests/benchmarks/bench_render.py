@@ -19,8 +19,10 @@ from typing import Any
 import numpy as np
 
 from api_schemas.families import Meaning, TextureSpec
+from api_schemas.meshes import ModelMesh
 from api_schemas.output import RenderOutput
 from api_schemas.scene import Scene
+from worker.geometry.model import Model
 from worker.images.image import Image
 
 SIDE = 512
@@ -110,7 +112,7 @@ def our_frame(maps: int, filter_name: str, supersampling: int) -> Callable[[], o
         }
     )
     output = RenderOutput(size=[SIDE, SIDE], supersampling=supersampling)
-    return lambda: render(scene, output, noise, lambda fraction, stage: None)
+    return lambda: list(render(scene, output, noise, no_model, lambda fraction, stage: None).bands)
 
 
 def noise(spec: TextureSpec, meaning: Meaning) -> Image:
@@ -118,6 +120,11 @@ def noise(spec: TextureSpec, meaning: Meaning) -> Image:
     random = np.random.default_rng(int(spec.model_dump()["value"]))
     channels = 3 if meaning == "colour" else 1
     return Image(random.random((1024, 1024, channels), dtype=np.float32), meaning)
+
+
+def no_model(mesh: ModelMesh) -> Model:
+    """There are none in these scenes."""
+    raise NotImplementedError
 
 
 def ball() -> dict[str, object]:
@@ -158,7 +165,7 @@ def stock_ms() -> float:
                 pyrender.Primitive(
                     positions=mesh.positions,
                     normals=mesh.normals,
-                    texcoord_0=mesh.uv,
+                    texcoord_0=mesh.uv(),
                     indices=mesh.triangles,
                     material=material,
                 )

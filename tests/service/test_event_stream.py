@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from pathlib import Path
 
 import httpx
@@ -65,8 +66,11 @@ class ToyServer:
                 told = len(found)
 
     def sockets(self) -> int:
-        files = Path(f"/proc/{self.process.pid}/fd").iterdir()
-        return sum(str(file.readlink()).startswith("socket:") for file in files)
+        count = 0
+        for file in Path(f"/proc/{self.process.pid}/fd").iterdir():
+            with suppress(FileNotFoundError):  # closed meanwhile
+                count += str(file.readlink()).startswith("socket:")
+        return count
 
     def threads(self) -> int:
         return len(list(Path(f"/proc/{self.process.pid}/task").iterdir()))
@@ -162,11 +166,9 @@ def test_a_thousand_connections_that_hang_up_leave_nothing_open(server):
             stream.close()
 
     sockets = server.sockets()
-    open_and_hang_up(100)  # the pool of threads is full from here on
-    threads = server.threads()
-    for _ in range(9):
+    for _ in range(10):
         open_and_hang_up(100)
 
     until(lambda: server.sockets() <= sockets, 10)
-    assert server.threads() <= threads + 1
+    assert server.threads() < 60, "the 40 of the pool and the engine's own"
     assert httpx.get(f"{server.url}/livez").status_code == 200

@@ -19,7 +19,7 @@ def test_warming_names_the_decoder_for_the_fingerprint() -> None:
     warmed = measure_asset.warm(lambda _fraction, stage: stages.append(stage))
 
     assert warmed["fingerprint"].startswith("OpenImageIO 3.")
-    assert stages == ["ready"]
+    assert stages == ["readers", "ready"]
 
 
 def test_facts_of_a_picture_are_json(tmp_path: Path) -> None:

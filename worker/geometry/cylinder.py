@@ -24,7 +24,7 @@ def cylinder(radius: float, height: float, segments: int, rows: int, *, caps: bo
     wall = Mesh(
         positions=positions,
         normals=normals,
-        uv=np.stack([column / segments, level / rows], axis=1),
+        uv_sets=(np.stack([column / segments, level / rows], axis=1),),
         triangles=grid_triangles(segments, rows),
     )
     if not caps:

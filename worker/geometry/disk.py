@@ -22,7 +22,7 @@ def disk(radius: float, segments: int, facing: Facing, offset: float = 0.0) -> M
     return Mesh(
         positions=radius * plane @ np.stack([right, up]) + offset * normal,
         normals=np.tile(normal, (segments + 1, 1)),
-        uv=(1 + plane) / 2,
+        uv_sets=((1 + plane) / 2,),
         triangles=np.stack([np.zeros_like(rim), 1 + rim, 1 + (rim + 1) % segments], axis=1).astype(
             np.uint32
         ),

@@ -1,43 +1,64 @@
 """The one mesh type inside the worker."""
 
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+MeshKind = Literal["triangles", "lines", "points"]
+UV_SETS_MAX = 4
+"""Sets of texture coordinates that are drawn; a reader ignores more."""
+
 
 @dataclass(frozen=True, slots=True)
 class Mesh:
-    """Triangles with a normal and texture coordinates at every vertex.
+    """Triangles, lines or points, with what is known at every vertex.
 
     The arrays are not copied: treat them as read-only.
 
     Attributes:
         positions: float64 (n, 3), in the object's frame.
-        normals: float64 (n, 3), unit length, outward.
-        uv: float64 (n, 2), u to the right and v up on the texture.
-        triangles: uint32 (m, 3), counter-clockwise seen from outside.
+        normals: float64 (n, 3), unit length, outward. Lines and points that have none hold zeros:
+            they have no side that light could fall on, and show their colour as it is.
+        uv_sets: 0..4 arrays float64 (n, 2), u to the right and v up on the texture.
+        triangles: uint32 (m, 3), counter-clockwise seen from outside; (m, 2) of lines, (m, 1) of
+            points.
+        tangents: float64 (n, 4), where u grows, unit length; the last is the sign of the bitangent,
+            sign * cross(normal, tangent). None: computed where a normal map asks for them.
+        colors: float64 (n, 4), linear, straight alpha. None: white.
+        kind: What a row of `triangles` is.
     """
 
     positions: NDArray[np.float64]
     normals: NDArray[np.float64]
-    uv: NDArray[np.float64]
+    uv_sets: tuple[NDArray[np.float64], ...]
     triangles: NDArray[np.uint32]
+    tangents: NDArray[np.float64] | None = None
+    colors: NDArray[np.float64] | None = None
+    kind: MeshKind = "triangles"
+
+    def uv(self, index: int = 0) -> NDArray[np.float64]:
+        """Return a set of texture coordinates, or set 0 in its place, or zeros without any."""
+        if not self.uv_sets:
+            return np.zeros((len(self.positions), 2))
+        return self.uv_sets[index if index < len(self.uv_sets) else 0]
 
     @property
     def size_bytes(self) -> int:
-        """What the four arrays occupy."""
-        arrays = (self.positions, self.normals, self.uv, self.triangles)
-        return sum(array.nbytes for array in arrays)
+        """What the arrays occupy."""
+        optional = [array for array in (self.tangents, self.colors) if array is not None]
+        arrays = (self.positions, self.normals, *self.uv_sets, *optional)
+        return self.triangles.nbytes + sum(array.nbytes for array in arrays)
 
 
 def join(meshes: list[Mesh]) -> Mesh:
-    """Put meshes into one, keeping the order of their vertices and triangles."""
+    """Put triangles with one uv set and no more into one, keeping the order of everything."""
     starts = np.cumsum([0] + [len(mesh.positions) for mesh in meshes[:-1]])
     return Mesh(
         positions=np.concatenate([mesh.positions for mesh in meshes]),
         normals=np.concatenate([mesh.normals for mesh in meshes]),
-        uv=np.concatenate([mesh.uv for mesh in meshes]),
+        uv_sets=(np.concatenate([mesh.uv() for mesh in meshes]),),
         triangles=np.concatenate(
             [mesh.triangles + start for mesh, start in zip(meshes, starts, strict=True)]
         ).astype(np.uint32),

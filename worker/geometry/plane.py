@@ -20,6 +20,6 @@ def plane(width: float, height: float, facing: Facing, offset: float = 0.0) -> M
     return Mesh(
         positions=(uv - 0.5) @ np.stack([width * right, height * up]) + offset * normal,
         normals=np.tile(normal, (4, 1)),
-        uv=uv,
+        uv_sets=(uv,),
         triangles=grid_triangles(1, 1),
     )

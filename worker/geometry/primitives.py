@@ -12,7 +12,7 @@ from worker.geometry.sphere import sphere
 from worker.geometry.torus import torus
 
 
-def build(spec: meshes.Mesh) -> Mesh:
+def build(spec: meshes.Primitive) -> Mesh:
     """Make the mesh that a request describes."""
     match spec:
         case meshes.Cylinder():

@@ -28,7 +28,7 @@ def sphere(radius: float, segments: int, rings: int, *, flip_u: bool = True) -> 
     return Mesh(
         positions=radius * normals[kept],
         normals=normals[kept],
-        uv=np.stack([u if flip_u else 1 - u, row / rings], axis=1)[kept],
+        uv_sets=(np.stack([u if flip_u else 1 - u, row / rings], axis=1)[kept],),
         triangles=number[triangles].astype(np.uint32),
     )
 

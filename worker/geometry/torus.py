@@ -28,6 +28,6 @@ def torus(radius: float, tube_radius: float, segments: int, rings: int) -> Mesh:
     return Mesh(
         positions=radius * middle + tube_radius * normals,
         normals=normals,
-        uv=np.stack([column / segments, row / rings], axis=1),
+        uv_sets=(np.stack([column / segments, row / rings], axis=1),),
         triangles=grid_triangles(segments, rings),
     )

@@ -43,7 +43,7 @@ def world_from_camera(pose: LookAt | MatrixPlacement) -> Matrix:
             (`camera_degenerate`).
     """
     if isinstance(pose, MatrixPlacement):
-        return _orthonormal(parent_from_node(pose))
+        return orthonormal(parent_from_node(pose))
     eye, target, up = (np.array(v, dtype=np.float64) for v in (pose.eye, pose.target, pose.up))
     backward = _unit(eye - target, "the camera's eye and target are one point")
     upward = _unit(up, "the camera's up vector has no length")
@@ -53,7 +53,12 @@ def world_from_camera(pose: LookAt | MatrixPlacement) -> Matrix:
     return matrix
 
 
-def _orthonormal(matrix: Matrix) -> Matrix:
+def orthonormal(matrix: Matrix) -> Matrix:
+    """Take scale and shear out of a camera's frame; it looks where it looked.
+
+    Raises:
+        RenderError: The matrix is singular (`camera_degenerate`).
+    """
     backward = _unit(matrix[:3, 2], "the camera's matrix is singular")
     upward = _unit(matrix[:3, 1], "the camera's matrix is singular")
     right = _unit(np.cross(upward, backward), "the camera's matrix is singular")
@@ -94,16 +99,29 @@ def clip_from_camera(camera: PerspectiveCamera | OrthographicCamera, aspect: flo
         raise RenderError(
             f"far is {far:g}; it must be more than near, {near:g}", code="camera_degenerate"
         )
-    matrix = np.zeros((4, 4))
     if isinstance(camera, PerspectiveCamera):
-        focal = 1 / math.tan(camera.fov_y / 2)
-        matrix[0, 0], matrix[1, 1] = focal / aspect, focal
-        matrix[2, 2], matrix[2, 3] = near / (far - near), near * far / (far - near)
-        matrix[3, 2] = -1.0
-    else:
-        matrix[0, 0], matrix[1, 1] = 2 / (camera.height * aspect), 2 / camera.height
-        matrix[2, 2], matrix[2, 3] = 1 / (far - near), far / (far - near)
-        matrix[3, 3] = 1.0
+        return perspective(camera.fov_y, aspect, near, far)
+    matrix = np.zeros((4, 4))
+    matrix[0, 0], matrix[1, 1] = 2 / (camera.height * aspect), 2 / camera.height
+    matrix[2, 2], matrix[2, 3] = 1 / (far - near), far / (far - near)
+    matrix[3, 3] = 1.0
+    return matrix
+
+
+def perspective(fov_y: float, aspect: float, near: float, far: float) -> Matrix:
+    """Project to clip space with reversed depth as far things are small; 0 < near < far.
+
+    Args:
+        fov_y: Angle in radians from the lower to the upper edge.
+        aspect: Width over height of the picture.
+        near: Distance of the plane with depth 1.
+        far: Distance of the plane with depth 0.
+    """
+    focal = 1 / math.tan(fov_y / 2)
+    matrix = np.zeros((4, 4))
+    matrix[0, 0], matrix[1, 1] = focal / aspect, focal
+    matrix[2, 2], matrix[2, 3] = near / (far - near), near * far / (far - near)
+    matrix[3, 2] = -1.0
     return matrix
 
 
@@ -111,9 +129,14 @@ def normal_matrix(world_from_object: Matrix) -> Matrix:
     """Give the 3 x 3 matrix that keeps normals outward: the cofactors, signed by the determinant.
 
     It equals the inverse transpose up to a positive factor and exists for flat scales too.
+
+    Args:
+        world_from_object: (..., 4, 4), one matrix or many.
     """
-    m = world_from_object[:3, :3]
-    cofactors = np.stack([np.cross(m[1], m[2]), np.cross(m[2], m[0]), np.cross(m[0], m[1])])
-    largest = np.abs(cofactors).max()
-    flip = -1.0 if np.linalg.det(m) < 0 else 1.0
-    return cofactors * (flip / largest) if largest > 0 else np.eye(3)
+    m = world_from_object[..., :3, :3]
+    x, y, z = m[..., 0, :], m[..., 1, :], m[..., 2, :]
+    cofactors = np.stack([np.cross(y, z), np.cross(z, x), np.cross(x, y)], axis=-2)
+    largest = np.abs(cofactors).max(axis=(-2, -1), keepdims=True)
+    flip = np.where(np.linalg.det(m) < 0, -1.0, 1.0)[..., None, None]
+    scaled = np.divide(cofactors * flip, largest, out=np.zeros_like(m), where=largest > 0)
+    return np.where(largest > 0, scaled, np.eye(3))

@@ -30,8 +30,9 @@ def join_layers(layers: Mapping[str, Image], pixel_type: ExrType) -> Channels:
 
     The layer named "" is the picture itself: its channels are R, G, B, A (or Y, A; data R, G). A
     layer "N" has N.R, N.G, N.B, N.A for colour, N.X, N.Y, N.Z, N.W for data, and is called just N
-    if it has one channel. The picture and colour layers have the asked type; named data (depth,
-    ids, positions) is always float, since half holds no whole number above 2048.
+    if it has one channel; "uv" has uv.U and uv.V. The picture and colour layers have the asked
+    type; named data (depth, ids, positions) is always float, since half holds no whole number
+    above 2048.
 
     In half, finite values beyond 65504 become 65504 instead of infinity; NaN and infinity stay.
 
@@ -60,6 +61,8 @@ def _names(layer: str, image: Image) -> list[str]:
         )
     if image.channels == 1:
         return [layer]
+    if layer == "uv":
+        return [f"{layer}.{letter}" for letter in "UV"]
     letters = (_COLOUR_NAMES if image.meaning == "colour" else _LAYER_DATA_NAMES)[image.channels]
     return [f"{layer}.{letter}" for letter in letters]
 

@@ -44,6 +44,13 @@ FILE_KINDS = (
 _LONGEST_MAGIC = max(len(magic) for kind in FILE_KINDS for magic in kind.magics)
 
 
+def is_picture(path: Path) -> bool:
+    """Whether a file begins as one of the accepted kinds does."""
+    with path.open("rb") as file:
+        start = file.read(_LONGEST_MAGIC)
+    return any(start.startswith(kind.magics) for kind in FILE_KINDS)
+
+
 def sniff(path: Path) -> FileKind:
     """Tell the kind of a picture file from its content.
 

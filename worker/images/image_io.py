@@ -1,4 +1,4 @@
-"""Picture files in and out, and the only importer of OpenImageIO.
+"""Picture files in and out; it and `scanlines` are the only importers of OpenImageIO.
 
 Reading accepts PNG, OpenEXR, JPEG, TIFF and Radiance HDR, told by content. Of several parts, pages
 or mip levels the first is read. Names choose the channels: R, G, B and A, else R and G, else Y and
@@ -7,13 +7,13 @@ the display window and, as colour, taken from the file's chromaticities to Rec.7
 profiles, gAMA and cHRM of other files are ignored: what the caller says decides. Exif and TIFF
 orientation is applied. A decoder's warning counts as damage.
 
-Writing makes equal bytes of equal pictures: no clock, no host.
+Writing makes equal bytes of equal pictures: no clock, no host. A picture may come in bands of rows,
+so that no more than a band of it is ever in memory.
 """
 
-import os
 import re
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, TypedDict
@@ -33,8 +33,8 @@ from worker.images.file_header import TEXELS_MAX, Header, inspect, too_large
 from worker.images.file_kinds import FileKind, sniff
 from worker.images.image import Image
 from worker.images.linearise import linearise
-from worker.images.png_chunks import is_whole_png
 from worker.images.png_filters import choose_png_filter
+from worker.images.scanlines import Scanlines
 from worker.images.windows import place, turn
 
 OpenImageIO.attribute("limits:resolution", SIDE_MAX)
@@ -92,13 +92,14 @@ def measure(path: Path) -> ImageFacts:
     }
 
 
-def read(path: Path, transfer: Transfer, meaning: Meaning) -> Image:
+def read(path: Path, transfer: Transfer, meaning: Meaning, *, alpha: bool = True) -> Image:
     """Read a picture as linear float32; colour with its alpha premultiplied.
 
     Args:
         path: A file of any name.
         transfer: The curve of the stored numbers; alpha never has one.
         meaning: Of the slot that takes the picture.
+        alpha: Whether to read the picture's alpha; without it colours stay as they are stored.
 
     Raises:
         UnusableAssetError: As `measure`.
@@ -107,7 +108,10 @@ def read(path: Path, transfer: Transfer, meaning: Meaning) -> Image:
     with _opened(path, kind) as file:
         header = inspect(file.spec(), kind)
         decoded = _decode(file, header)
-    pixels = linearise(decoded, transfer, header.alpha, meaning, header.rec709)
+    coverage = header.alpha
+    if coverage != "none" and not alpha:
+        decoded, coverage = np.ascontiguousarray(decoded[..., :-1]), "none"
+    pixels = linearise(decoded, transfer, coverage, meaning, header.rec709)
     return Image(turn(place(pixels, header.data, header.display), header.orientation), meaning)
 
 
@@ -120,13 +124,46 @@ def encode_png(
     exposure: float = 0.0,
     tone_curve: ToneCurve = "none",
 ) -> None:
+    """Write a whole picture as `write_png` writes one in bands."""
+    write_png(
+        [image],
+        image.height,
+        path,
+        bits=bits,
+        transfer=transfer,
+        exposure=exposure,
+        tone_curve=tone_curve,
+    )
+
+
+def write_png(
+    bands: Iterable[Image],
+    height: int,
+    path: Path,
+    *,
+    bits: PngBits,
+    transfer: Transfer,
+    exposure: float,
+    tone_curve: ToneCurve,
+) -> None:
     """Write a PNG: straight alpha, 1 or 2 channels as grey, sRGB or gAMA chunks for light.
+
+    Args:
+        bands: The picture's rows from the top, some at a time; the first chooses the row filter.
+        height: Of the picture.
+        path: Where the file goes.
+        bits: As `display_codes` takes it, and so are the rest.
+        transfer: The curve of the codes.
+        exposure: In stops.
+        tone_curve: Of colour.
 
     Raises:
         OSError: The file cannot be written.
     """
+    rest = iter(bands)
+    image = next(rest)
     codes = display_codes(image, bits, transfer, exposure, tone_curve)
-    spec = OpenImageIO.ImageSpec(image.width, image.height, image.channels, f"uint{bits}")
+    spec = OpenImageIO.ImageSpec(image.width, height, image.channels, f"uint{bits}")
     spec.attribute("oiio:UnassociatedAlpha", 1)
     # Level 1 is 3 to 9 times faster than 6 and 9, for files a tenth larger.
     spec.attribute("png:compressionLevel", 1)
@@ -134,7 +171,10 @@ def encode_png(
     # Data in its own numbers says nothing about colour; without a word it would be called sRGB.
     is_light = transfer == "srgb" or image.meaning == "colour"
     spec.attribute("oiio:ColorSpace", _COLOUR_SPACES[transfer] if is_light else "data")
-    _write("png", path, spec, codes)
+    with Scanlines("png", path, spec) as file:
+        file.write(codes)
+        for image in rest:
+            file.write(display_codes(image, bits, transfer, exposure, tone_curve))
 
 
 def encode_exr(
@@ -145,16 +185,45 @@ def encode_exr(
     digest: str,
     version: str,
 ) -> None:
-    """Write an OpenEXR file: linear, premultiplied, zip; layers as `join_layers` names them.
-
-    Attributes `texloom:digest` and `texloom:version` say what made it.
+    """Write whole pictures as `write_exr` writes them in bands.
 
     Raises:
         ValueError: The layers are none, or of different sizes.
         OSError: The file cannot be written.
     """
+    height = max((image.height for image in layers.values()), default=0)
+    write_exr([layers], height, path, pixel_type=pixel_type, digest=digest, version=version)
+
+
+def write_exr(
+    bands: Iterable[Mapping[str, Image]],
+    height: int,
+    path: Path,
+    *,
+    pixel_type: ExrType,
+    digest: str,
+    version: str,
+) -> None:
+    """Write an OpenEXR file: linear, premultiplied, zip; layers as `join_layers` names them.
+
+    Attributes `texloom:digest` and `texloom:version` say what made it.
+
+    Args:
+        bands: The same layers of the picture's rows from the top, some at a time.
+        height: Of the picture.
+        path: Where the file goes.
+        pixel_type: As `join_layers` takes it.
+        digest: Of the request.
+        version: Of this program.
+
+    Raises:
+        ValueError: The layers of a band are none, or of different sizes.
+        OSError: The file cannot be written.
+    """
+    rest = iter(bands)
+    layers = next(rest)
     channels = join_layers(layers, pixel_type)
-    height, width, count = channels.pixels.shape
+    _, width, count = channels.pixels.shape
     # Formats per channel are ignored when all are equal: the common one must be given here.
     spec = OpenImageIO.ImageSpec(width, height, count, channels.types[0])
     if len(set(channels.types)) > 1:
@@ -168,7 +237,10 @@ def encode_exr(
     if any(image.meaning == "colour" for image in layers.values()):
         spec.attribute("oiio:ColorSpace", _COLOUR_SPACES["linear"])
         spec.attribute("chromaticities", OpenImageIO.TypeDesc("float[8]"), REC709_CHROMATICITIES)
-    _write("openexr", path, spec, channels.pixels)
+    with Scanlines("openexr", path, spec) as file:
+        file.write(channels.pixels)
+        for layers in rest:
+            file.write(join_layers(layers, pixel_type).pixels)
 
 
 @contextmanager
@@ -213,17 +285,3 @@ def _decode(file: OpenImageIO.ImageInput, header: Header) -> NDArray[Any]:
         file.geterror()
         raise UnusableAssetError("the texels are damaged or cut short")
     return np.asarray(decoded)
-
-
-def _write(format_name: str, path: Path, spec: OpenImageIO.ImageSpec, pixels: NDArray[Any]) -> None:
-    file = OpenImageIO.ImageOutput.create(format_name)
-    if file is None:
-        raise OSError(f"this OpenImageIO cannot write {format_name}")
-    written = file.open(str(path), spec) and file.write_image(np.ascontiguousarray(pixels))
-    closed = file.close()
-    whole = written and closed and (format_name != "png" or is_whole_png(path))
-    if not whole:
-        if path.parent.is_dir():  # nobody says why it failed; asking for room tells of a full disk
-            with path.open("ab") as rest:
-                os.posix_fallocate(rest.fileno(), 0, pixels.nbytes)
-        raise OSError(f"cannot write the {format_name} file: {file.geterror()}")

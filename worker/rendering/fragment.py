@@ -1,24 +1,71 @@
 """The fragment shader of a surface: its chunk, and generated code that fills its parameters."""
 
+from collections.abc import Callable, Sequence
+
 from worker.rendering.chunks import Source, chunk, join
-from worker.rendering.shading import Parameter, ShadingLayout
+from worker.rendering.shading import LookupLayout, Parameter, ShadingLayout
 
 VERSION = "#version 410 core"
+_BY_OPACITY = {
+    "mask": "    if (opacity < alpha_cutoff) discard;",
+    "blend": "    color *= opacity;",
+}
 
 
-def surface_sources(layout: ShadingLayout) -> tuple[Source, Source]:
-    """Return the vertex and the fragment source that draw a layout."""
-    return join(chunk("mesh.vert"), "mesh.vert"), join(_fragment(layout), layout.technique)
+def surface_sources(layout: ShadingLayout, *, layered: bool) -> tuple[Source, Source]:
+    """Return the vertex and the fragment source that draw a layout, with or without all layers."""
+    fragment = _fragment(layout, layered)
+    return join(chunk("mesh.vert"), "mesh.vert"), join(fragment, layout.technique)
 
 
-def _fragment(layout: ShadingLayout) -> str:
-    lookups = layout.lookups
-    chunks = [
-        "lib/fragment.glsl",
-        f"surfaces/{layout.technique}.glsl",
-        *(f"coordinates/{lookup.coordinates}.glsl" for lookup in lookups),
-        *(f"lib/sample_{lookup.filter}.glsl" for lookup in lookups),
+def background_sources(layout: ShadingLayout) -> tuple[Source, Source]:
+    """Return the sources that draw a mapped colour over the whole target, alpha included."""
+    (color,) = layout.parameters
+    texel = f"texel_{color.lookup}"
+    lines = [
+        *_head(layout, ["lib/background.glsl"]),
+        *_declarations(color),
+        "void main() {",
+        *_texels(layout, lambda lookup: "coordinates_picture()"),
+        f"    vec3 light = color_scale * {texel}.rgb + color_bias * {texel}.a;",
+        f"    color = holdable(vec4(light, clamp({texel}.a, 0.0, 1.0)));",
+        "}",
     ]
+    vertex = join(chunk("whole_target.vert"), "whole_target.vert")
+    return vertex, join("\n".join(lines), "background")
+
+
+def _fragment(layout: ShadingLayout, layered: bool) -> str:
+    parameters = [*layout.parameters, *([layout.opacity] if layout.opacity else [])]
+    chunks = ["lib/fragment.glsl", f"surfaces/{layout.technique}.glsl"]
+    chunks += [f"coordinates/{lookup.coordinates}.glsl" for lookup in layout.lookups]
+    chunks += ["lib/normal_map.glsl"] if layout.normal is not None else []
+    chunks += ["lib/opacity.glsl"] if layout.opacity else []
+    chunks += ["lib/layers.glsl"] if layered else []
+    lines = _head(layout, chunks)
+    for parameter in parameters:
+        lines += _declarations(parameter)
+    if layout.normal is not None:
+        lines += ["uniform vec2 normal_range;", "uniform vec4 normal_axes;"]
+    lines += ["void main() {", "    SurfacePoint point = surface_point();"]
+    lines += _texels(layout, _coordinates)
+    if layout.normal is not None:
+        lines += _tilt(layout.normal)
+    lines.append("    Surface surface;")
+    lines += [f"    surface.{p.name} = {_value(p)};" for p in layout.parameters]
+    lines.append("    color = holdable(shade(point, surface));")
+    if layout.opacity:
+        lines.append(f"    float opacity = bounded({_value(layout.opacity)}, point.color.a);")
+        lines.append(_BY_OPACITY[layout.alpha_mode])
+    if layered:
+        lines.append("    write_layers(point, albedo(surface), color.a);")
+    return "\n".join([*lines, "}"])
+
+
+def _head(layout: ShadingLayout, chunks: Sequence[str]) -> list[str]:
+    """Write the chunks and the uniforms of lookups."""
+    lookups = layout.lookups
+    chunks = [*chunks, *(f"lib/sample_{lookup.filter}.glsl" for lookup in lookups)]
     lines = [VERSION, *(f'#include "{name}"' for name in dict.fromkeys(chunks))]
     if lookups:
         lines += [
@@ -27,25 +74,38 @@ def _fragment(layout: ShadingLayout) -> str:
             f"uniform vec4 lookup_period[{len(lookups)}];",
             f"uniform vec2 lookup_size[{len(lookups)}];",
         ]
-    for parameter in layout.parameters:
-        lines += _declarations(parameter)
-    lines += ["void main() {", "    SurfacePoint point = surface_point();"]
-    for index, lookup in enumerate(lookups):
-        lines.append(
-            f"    vec4 texel_{index} = sample_{lookup.filter}(picture_{lookup.picture}, "
-            f"look_up(coordinates_{lookup.coordinates}(point), lookup_transform[{index}], "
-            f"lookup_period[{index}], lookup_size[{index}]));"
-        )
-    lines.append("    Surface surface;")
-    lines += [f"    surface.{p.name} = {_value(p)};" for p in layout.parameters]
-    lines += ["    color = holdable(shade(point, surface));", "}"]
-    return "\n".join(lines)
+    return lines
+
+
+def _texels(layout: ShadingLayout, coordinates: Callable[[LookupLayout], str]) -> list[str]:
+    """Write the readings of all pictures; `coordinates` gives the call that says where."""
+    return [
+        f"    vec4 texel_{index} = sample_{lookup.filter}(picture_{lookup.picture}, "
+        f"look_up({coordinates(lookup)}, lookup_transform[{index}], "
+        f"lookup_period[{index}], lookup_size[{index}]));"
+        for index, lookup in enumerate(layout.lookups)
+    ]
+
+
+def _coordinates(lookup: LookupLayout) -> str:
+    return f"coordinates_{lookup.coordinates}({', '.join(['point', *map(str, lookup.choices)])})"
+
+
+def _tilt(lookup: int) -> list[str]:
+    return [
+        f"    vec3 tilt = normal_range.x * texel_{lookup}.xyz + normal_range.y;",
+        "    tilt.xy = vec2(dot(normal_axes.xy, tilt.xy), dot(normal_axes.zw, tilt.xy));",
+        "    point.normal = tilted_normal(point, vertex_normal, tilt);",
+    ]
 
 
 def _declarations(parameter: Parameter) -> list[str]:
     if parameter.lookup is None:
         return [f"uniform {parameter.type} {parameter.name}_value;"]
-    declared = [f"uniform vec2 {parameter.name}_scale_bias;"]
+    declared = [
+        f"uniform {parameter.type} {parameter.name}_scale;",
+        f"uniform float {parameter.name}_bias;",
+    ]
     if parameter.type == "float":
         declared.append(f"uniform int {parameter.name}_channel;")
     return declared
@@ -57,4 +117,4 @@ def _value(parameter: Parameter) -> str:
         return f"{name}_value"
     # Indexing the texel keeps an infinity in another channel out; a dot product would not.
     channel = ".rgb" if parameter.type == "vec3" else f"[{name}_channel]"
-    return f"{name}_scale_bias.x * texel_{parameter.lookup}{channel} + {name}_scale_bias.y"
+    return f"{name}_scale * texel_{parameter.lookup}{channel} + {name}_bias"

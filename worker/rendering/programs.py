@@ -3,7 +3,7 @@
 import re
 from collections import OrderedDict
 from collections.abc import Callable, Hashable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Generic, Self, TypeVar
 
 import numpy as np
@@ -15,7 +15,7 @@ from worker.rendering.gl_context import GL, floats
 _DECLARATION = re.compile(r"^uniform (?P<type>\w+) (?P<names>[^;]+);", re.MULTILINE)
 _NAME = re.compile(r"(?P<name>\w+)(?:\[(?P<count>\d+)\])?")
 _FLOATS = {"float": 1, "vec2": 2, "vec3": 3, "vec4": 4, "mat3": 9, "mat4": 16}
-_WHOLE = ("int", "bool", "sampler2D")
+_WHOLE = ("int", "bool", "sampler2D", "samplerBuffer")
 PROGRAMS_MAX = 64
 """With its compiled variants a program takes about 2 MB, and maps combine without end."""
 
@@ -31,11 +31,19 @@ class Uniform:
 
 @dataclass(slots=True)
 class Program:
-    """A linked program. `drawn` says whether it has drawn yet: its first draw pays for the JIT."""
+    """A linked program.
+
+    Attributes:
+        number: Its OpenGL object.
+        uniforms: What its sources declare, by name.
+        drawn: Whether it has drawn yet: its first draw pays for the JIT.
+        held: The bytes of each uniform, so that setting one to what it is costs nothing.
+    """
 
     number: int
     uniforms: dict[str, Uniform]
     drawn: bool = False
+    held: dict[str, bytes] = field(default_factory=dict)
 
     @classmethod
     def link(cls, vertex: Source, fragment: Source) -> Self:
@@ -73,15 +81,21 @@ class Program:
         if uniform.type in _WHOLE:
             if np.ndim(value) != 0:
                 raise ValueError(f"{name} is one {uniform.type}, not shape {np.shape(value)}")
-            if uniform.location is not None:
+            if uniform.location is not None and self._changes(name, b"%d" % value):
                 GL.glUniform1i(uniform.location, int(value))
             return
         data = floats(value)
         count, rest = divmod(data.size, _FLOATS[uniform.type])
         if rest or not 1 <= count <= uniform.count:
             raise ValueError(f"{name} is {uniform.type}[{uniform.count}], not shape {data.shape}")
-        if uniform.location is not None:
+        if uniform.location is not None and self._changes(name, data.tobytes()):
             _SETTERS[uniform.type](uniform.location, count, data)
+
+    def _changes(self, name: str, value: bytes) -> bool:
+        if self.held.get(name) == value:
+            return False
+        self.held[name] = value
+        return True
 
 
 P = TypeVar("P", bound=Program)

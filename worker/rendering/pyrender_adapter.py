@@ -1,130 +1,40 @@
 """pyrender's Renderer with our programs, our float targets and our uniforms.
 
-Of pyrender remain the scene, the traversal, vertex buffers and the contexts. Overridden are its
-private hooks, which a pinned version and a test keep where they are. Not used are its shaders,
-which clamp and encode, its textures, which truncate floats, and its lights.
+Of pyrender remain the scene, the traversal and the contexts. Overridden are its private hooks,
+which a pinned version and a test keep where they are. Not used are its shaders, which clamp and
+encode, its textures, which truncate floats, its vertex buffers, whose attributes move, and its
+lights.
 """
 
-import copy
 import time
-from collections.abc import Sequence
-from dataclasses import dataclass, field
-from typing import Any, TypeAlias
+from collections.abc import Callable, Hashable
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import pyrender
 from numpy.typing import NDArray
 from pyrender.constants import RenderFlags
 
-from worker.geometry.mesh import Mesh
-from worker.geometry.transforms import Matrix, normal_matrix, rigid_inverse
-from worker.rendering.fragment import surface_sources
-from worker.rendering.gl_context import GL, GLContext, check
+from worker.geometry.transforms import Matrix, rigid_inverse
+from worker.rendering.chunks import Source
+from worker.rendering.fragment import background_sources, surface_sources
+from worker.rendering.gl_context import GL, GLContext, check, floats
+from worker.rendering.layer_uniforms import LayerUniforms
 from worker.rendering.programs import Program, ProgramCache
+from worker.rendering.pyrender_scene import FlatScene, PlacedNode, SurfacePrimitive, View
 from worker.rendering.samplers import SamplerCache
-from worker.rendering.shading import Shading
+from worker.rendering.shading import Picture, Shading
 from worker.rendering.targets import Target
-
-UploadedMesh: TypeAlias = pyrender.Primitive
-"""A mesh in OpenGL."""
 
 _SET_BY_PYRENDER = frozenset({"V", "P", "cam_pos"})
 
 
-@dataclass(frozen=True, slots=True)
-class View:
-    """The eye.
-
-    Attributes:
-        world_from_camera: Where it stands; a rigid motion.
-        clip_from_camera: Its projection, with reversed depth.
-        orthographic: Whether all views are parallel.
-    """
-
-    world_from_camera: Matrix
-    clip_from_camera: Matrix
-    orthographic: bool
-
-
-@dataclass(frozen=True, slots=True)
-class Drawable:
-    """A mesh in OpenGL, a surface, and where they stand."""
-
-    primitive: UploadedMesh
-    shading: Shading
-    world_from_object: Matrix
-
-
-class SurfaceMaterial(pyrender.Material):  # type: ignore[misc]
-    """Carries a shading through pyrender's traversal. Textures are ours to upload and to free."""
-
-    def __init__(self, shading: Shading) -> None:
-        """Make a material that draws both sides of a surface."""
-        super().__init__(doubleSided=True)
-        self.shading = shading
-
-    @property
-    def textures(self) -> set[Any]:
-        """Tell pyrender of no textures."""
-        return set()
-
-
-class PlacedNode(pyrender.Node):  # type: ignore[misc]
-    """A node with any matrix; pyrender's own would break mirrored, sheared and flat ones up."""
-
-    def __init__(self, matrix: Matrix, order: int, **content: Any) -> None:
-        """Place a mesh or a camera; `order` is its place in the request."""
-        super().__init__(**content)
-        self._matrix = matrix
-        self.order = order
-
-
-class MatrixCamera(pyrender.Camera):  # type: ignore[misc]
-    """A camera whose projection is known already."""
-
-    def __init__(self, clip_from_camera: Matrix) -> None:
-        """Take a projection."""
-        super().__init__()
-        self._clip_from_camera = clip_from_camera
-
-    def get_projection_matrix(self, width: int | None = None, height: int | None = None) -> Matrix:
-        """Return the projection, whatever the size of the tile."""
-        return self._clip_from_camera
-
-
-def upload_mesh(mesh: Mesh) -> UploadedMesh:
-    """Copy a mesh to OpenGL; attributes 0, 1, 2 are position, normal and uv."""
-    primitive = pyrender.Primitive(
-        positions=mesh.positions, normals=mesh.normals, texcoord_0=mesh.uv, indices=mesh.triangles
-    )
-    primitive._add_to_context()
-    check("uploading a mesh")
-    return primitive
-
-
-def delete_mesh(primitive: UploadedMesh) -> None:
-    """Free a mesh's buffers."""
-    primitive.delete()
-
-
-def pyrender_scene(drawables: Sequence[Drawable], view: View) -> "pyrender.Scene":
-    """Put drawables and the eye into a scene of pyrender's."""
-    scene = pyrender.Scene(bg_color=np.zeros(4), ambient_light=np.zeros(3))
-    camera = MatrixCamera(view.clip_from_camera)
-    scene.add_node(PlacedNode(view.world_from_camera, -1, camera=camera))
-    for order, drawable in enumerate(drawables):
-        # A copy shares the vertex buffers: one mesh may be drawn with many surfaces.
-        primitive = copy.copy(drawable.primitive)
-        primitive.material = SurfaceMaterial(drawable.shading)
-        mesh = pyrender.Mesh([primitive])
-        scene.add_node(PlacedNode(drawable.world_from_object, order, mesh=mesh))
-    return scene
-
-
+@dataclass(slots=True)
 class _TraversedProgram(Program):
-    """A program as pyrender's traversal handles it."""
+    """A program as pyrender's traversal handles it; `frame` is the last one it was lit for."""
 
-    __slots__ = ()
+    frame: object = None
 
     def _bind(self) -> None:
         self.bind()
@@ -140,14 +50,31 @@ class _TraversedProgram(Program):
 
 @dataclass(slots=True)
 class _Frame:
-    """What one tile is drawn with."""
+    """What one tile is drawn with.
 
-    view: View
+    Attributes:
+        scene: What is drawn.
+        lights: Uniforms.
+        target: Where the samples go.
+        clip_from_object: float32 (n, 4, 4), by the number of the drawable.
+        eye: As lib/fragment.glsl wants it.
+        corner: Of the tile in the picture, in samples from the lower left.
+        picture: Width and height of the whole picture in pixels.
+        supersampling: Samples along each side of a pixel.
+        blending: Whether what is drawn now lets light through.
+        bound: What each texture unit holds.
+    """
+
+    scene: FlatScene
     lights: dict[str, Any]
     target: Target
-    clip_from_world: Matrix
-    eye_from_world: Matrix
-    eye: NDArray[np.float64] = field(default_factory=lambda: np.array([0.0, 0.0, 0.0, 1.0]))
+    clip_from_object: NDArray[np.float32]
+    eye: NDArray[np.float64]
+    corner: NDArray[np.float64]
+    picture: NDArray[np.float64]
+    supersampling: int
+    blending: bool
+    bound: dict[int, Picture]
 
 
 class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
@@ -163,46 +90,56 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         self._context = context
         self._programs = ProgramCache(_TraversedProgram)
         self._samplers = SamplerCache()
+        self._layers = LayerUniforms()
         self._frame: _Frame | None = None
+        self._stream = 0  # a buffer of elements in another order
+        self._no_vertices = 0
         self.jit_seconds = 0.0
 
     def draw(
         self,
-        scene: "pyrender.Scene",
+        scene: FlatScene,
         view: View,
         lights: dict[str, Any],
         target: Target,
         tile_from_picture: Matrix,
         size: tuple[int, int],
+        supersampling: int,
     ) -> None:
         """Draw one tile into the lower left part of a target; where nothing is, all four are 0.
 
         Args:
-            scene: From pyrender_scene.
-            view: The same eye.
+            scene: What to draw.
+            view: The eye that it was made for.
             lights: From light_uniforms.
             target: Where the samples go.
             tile_from_picture: Stretches the tile's part of clip space over all of it.
             size: The tile's width and height in samples.
+            supersampling: Samples along each side of a pixel, as wide as lines and points are.
 
         Raises:
             RenderError: OpenGL complains, or this is not the context's thread.
         """
         self._context.check_thread()
         camera_from_world = rigid_inverse(view.world_from_camera)
-        eye_from_world = np.eye(4)
-        eye_from_world[:3, 3] = -view.world_from_camera[:3, 3]
-        frame = _Frame(
-            view=view,
+        clip_from_world = tile_from_picture @ view.clip_from_camera @ camera_from_world
+        backward = view.world_from_camera[:3, 2]
+        picture = np.diag(tile_from_picture)[:2] * size
+        self._frame = _Frame(
+            scene=scene,
             lights=lights,
             target=target,
-            clip_from_world=tile_from_picture @ view.clip_from_camera @ camera_from_world,
-            eye_from_world=eye_from_world,
+            clip_from_object=floats(clip_from_world @ scene.world_from_object),
+            eye=np.append(backward, 0.0) if view.orthographic else np.array([0.0, 0.0, 0.0, 1.0]),
+            corner=np.rint((picture - (1 + tile_from_picture[:2, 3]) * size) / 2),
+            picture=np.rint(picture / supersampling),
+            supersampling=supersampling,
+            blending=False,
+            bound={},
         )
-        if view.orthographic:
-            frame.eye = np.append(view.world_from_camera[:3, 2], 0.0)
-        self._frame = frame
         self.viewport_width, self.viewport_height = size
+        GL.glLineWidth(supersampling)
+        GL.glPointSize(supersampling)
         self.render(scene, RenderFlags.OFFSCREEN)
         check("drawing a tile")
 
@@ -214,6 +151,7 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
     def _configure_forward_pass_viewport(self, flags: int) -> None:
         assert self._frame is not None
         GL.glBindFramebuffer(GL.GL_DRAW_FRAMEBUFFER, self._frame.target.framebuffer)
+        self._frame.target.write(averaged=True, nearest=True)
         GL.glViewport(0, 0, self.viewport_width, self.viewport_height)
         GL.glEnable(GL.GL_DEPTH_TEST)
         GL.glDepthMask(True)
@@ -222,73 +160,148 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         GL.glDisable(GL.GL_BLEND)
         GL.glEnable(GL.GL_CULL_FACE)
 
-    def _get_camera_matrices(self, scene: Any) -> tuple[Matrix, Matrix]:
-        assert self._frame is not None
-        return self._frame.eye_from_world, self._frame.clip_from_world
+    def _get_camera_matrices(self, scene: FlatScene) -> tuple[None, None]:
+        """Draw the background: this is called when the target has been cleared.
 
-    def _sorted_mesh_nodes(self, scene: Any) -> list[PlacedNode]:
-        """Near to far, then as the request has them: pyrender's own order hangs on a set's."""
+        Our programs have matrices of their own.
+        """
         assert self._frame is not None
-        eye = self._frame.view.world_from_camera[:3, 3]
-        return sorted(
-            scene.mesh_nodes,
-            key=lambda node: (float(np.linalg.norm(node.matrix[:3, 3] - eye)), node.order),
-        )
+        if scene.background is not None:
+            if scene.background.shading is None:
+                GL.glClearBufferfv(GL.GL_COLOR, 0, floats([*scene.background.color, 1.0]))
+            else:
+                self._draw_background(scene.background.shading)
+        return None, None
 
-    def _get_primitive_program(self, primitive: Any, flags: int, program_flags: int) -> Program:
-        layout = primitive.material.shading.layout
-        start = time.perf_counter()
-        program = self._programs.get(layout, lambda: surface_sources(layout))
-        if not program.drawn:
-            self.jit_seconds += time.perf_counter() - start
-        return program
+    def _sorted_mesh_nodes(self, scene: FlatScene) -> list[PlacedNode]:
+        return scene.in_order
 
-    def _bind_lighting(self, scene: Any, program: Program, node: Any, flags: int) -> None:
+    def _get_primitive_program(
+        self, primitive: SurfacePrimitive, flags: int, program_flags: int
+    ) -> Program:
         assert self._frame is not None
+        layout, layered = primitive.material.shading.layout, self._frame.target.layered
+        return self._linked((layout, layered), lambda: surface_sources(layout, layered=layered))
+
+    def _bind_lighting(
+        self, scene: FlatScene, program: _TraversedProgram, node: PlacedNode, flags: int
+    ) -> None:
+        assert self._frame is not None
+        if program.frame is self._frame:
+            return
+        program.frame = self._frame
+        program.set("eye", self._frame.eye)
         if "light_count" in program.uniforms:
             for name, value in self._frame.lights.items():
                 program.set(name, value)
 
     def _bind_and_draw_primitive(
-        self, primitive: Any, pose: Matrix, program: Program, flags: int
+        self, primitive: SurfacePrimitive, pose: Matrix, program: Program, flags: int
     ) -> None:
         assert self._frame is not None
-        frame = self._frame
-        program.set("eye", frame.eye)
-        program.set("clip_from_object", frame.clip_from_world @ pose)
-        program.set("eye_from_object", frame.eye_from_world @ pose)
-        program.set("normal_from_object", normal_matrix(pose))
-        shading: Shading = primitive.material.shading
-        for name, value in shading.uniforms.items():
-            program.set(name, value)
-        for unit, picture in enumerate(shading.pictures):
-            GL.glActiveTexture(GL.GL_TEXTURE0 + unit)
-            GL.glBindTexture(GL.GL_TEXTURE_2D, picture.texture.number)
-            GL.glBindSampler(unit, self._samplers.get(picture.sampling, picture.border))
-            program.set(f"picture_{unit}", unit)
+        scene, number = self._frame.scene, primitive.number
+        program.set("clip_from_object", self._frame.clip_from_object[number])
+        program.set("eye_from_object", scene.eye_from_object[number])
+        program.set("normal_from_object", scene.normal_from_object[number])
+        program.set("handedness", -1.0 if primitive.mirrored else 1.0)
+        self._bind_surface(program, primitive.material.shading)
+        if self._frame.target.layered:
+            program.set("object_id", number + 1)
+            program.set("material_id", primitive.material.number)
+            self._layers.set(program, scene.world_from_camera, primitive.mesh)
+        if primitive.material.shading.layout.alpha_mode == "blend" and not self._frame.blending:
+            self._begin_blending()
         start = time.perf_counter()
-        primitive._bind()
+        primitive.mesh.bind()
         # A mirrored transform turns the winding, but not which side is the outer one.
-        mirrored = np.linalg.det(pose[:3, :3]) < 0
-        GL.glFrontFace(GL.GL_CW if mirrored else GL.GL_CCW)
-        # Outer sides first: the depth test then spares the shading of inner sides behind them.
-        for hidden in (GL.GL_BACK, GL.GL_FRONT):
-            GL.glCullFace(hidden)
-            GL.glDrawElements(GL.GL_TRIANGLES, primitive.indices.size, GL.GL_UNSIGNED_INT, None)
-        primitive._unbind()
+        GL.glFrontFace(GL.GL_CW if primitive.mirrored else GL.GL_CCW)
+        for hidden in primitive.hidden:
+            if hidden is None:
+                GL.glDisable(GL.GL_CULL_FACE)
+            else:
+                GL.glEnable(GL.GL_CULL_FACE)
+                GL.glCullFace(hidden)
+            if primitive.elements is None:
+                primitive.mesh.draw()
+            else:
+                self._stream = self._stream or int(GL.glGenBuffers(1))
+                primitive.mesh.draw_in_order(primitive.elements, self._stream)
+        GL.glBindVertexArray(0)
+        self._drawn(program, start)
+
+    def _read_main_framebuffer(self, scene: Any, flags: int) -> None:
+        """Read nothing: the tile is resolved first."""
+
+    def _begin_blending(self) -> None:
+        """Let colours, premultiplied, lie over what is there; depth is asked but not changed."""
+        assert self._frame is not None
+        self._frame.blending = True
+        self._frame.target.write(averaged=True, nearest=False)
+        GL.glDepthMask(False)
+        GL.glEnable(GL.GL_BLEND)
+        GL.glBlendFunc(GL.GL_ONE, GL.GL_ONE_MINUS_SRC_ALPHA)
+
+    def _draw_background(self, shading: Shading) -> None:
+        assert self._frame is not None
+        program = self._linked(
+            ("background", shading.layout), lambda: background_sources(shading.layout)
+        )
+        program.bind()
+        program.set("corner", self._frame.corner)
+        program.set("picture_size", self._frame.picture)
+        program.set("samples_per_side", self._frame.supersampling)
+        self._bind_surface(program, shading)
+        start = time.perf_counter()
+        self._no_vertices = self._no_vertices or int(GL.glGenVertexArrays(1))
+        self._frame.target.write(averaged=False, nearest=False)
+        GL.glDisable(GL.GL_DEPTH_TEST)  # nor is any depth written then
+        GL.glDisable(GL.GL_CULL_FACE)
+        GL.glBindVertexArray(self._no_vertices)
+        GL.glDrawArrays(GL.GL_TRIANGLES, 0, 3)
+        GL.glBindVertexArray(0)
+        GL.glEnable(GL.GL_DEPTH_TEST)
+        self._frame.target.write(averaged=True, nearest=True)
+        self._drawn(program, start)
+
+    def _linked(
+        self, key: Hashable, sources: Callable[[], tuple[Source, Source]]
+    ) -> _TraversedProgram:
+        start = time.perf_counter()
+        program = self._programs.get(key, sources)
+        if not program.drawn:
+            self.jit_seconds += time.perf_counter() - start
+        return program
+
+    def _drawn(self, program: Program, start: float) -> None:
+        """Count the time of a program's first draw, which compiles it."""
         if not program.drawn:
             program.drawn = True
             self.jit_seconds += time.perf_counter() - start
 
-    def _read_main_framebuffer(self, scene: Any, flags: int) -> None:
-        """Read nothing: the tile is resolved first."""
+    def _bind_surface(self, program: Program, shading: Shading) -> None:
+        """Give the bound program a surface's parameters and pictures."""
+        assert self._frame is not None
+        for name, value in shading.uniforms.items():
+            program.set(name, value)
+        for unit, picture in enumerate(shading.pictures):
+            program.set(f"picture_{unit}", unit)
+            if self._frame.bound.get(unit) != picture:
+                self._frame.bound[unit] = picture
+                GL.glActiveTexture(GL.GL_TEXTURE0 + unit)
+                GL.glBindTexture(GL.GL_TEXTURE_2D, picture.texture.number)
+                GL.glBindSampler(unit, self._samplers.get(picture.sampling, picture.border))
 
     def trim(self) -> None:
         """Free what exceeds the bounds; call it when nothing is being drawn."""
         self._programs.trim()
         self._samplers.trim()
+        self._layers.trim()
 
     def delete(self) -> None:
-        """Free programs and samplers."""
+        """Free programs, samplers and buffers."""
         self._programs.delete()
         self._samplers.delete()
+        self._layers.trim()
+        GL.glDeleteBuffers(1, [self._stream])
+        GL.glDeleteVertexArrays(1, [self._no_vertices])
+        self._stream = self._no_vertices = 0

@@ -1,42 +1,62 @@
-"""Draw a request's scene: build, tile by tile, resolved to one float picture."""
+"""Draw a request's scene: build, tile by tile, resolved to bands of float pixels."""
 
 import atexit
 import functools
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Self, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from api_schemas.families import Meaning, TextureSpec
 from api_schemas.language import FAMILIES
+from api_schemas.model_mesh import ModelMesh
 from api_schemas.output import RenderOutput
 from api_schemas.scene import Scene
+from worker.errors import RenderError
+from worker.geometry.model import Model
 from worker.images.image import Image
 from worker.rendering.gl_context import GLContext, check
 from worker.rendering.lighting import light_uniforms
-from worker.rendering.pyrender_adapter import FloatRenderer, pyrender_scene
-from worker.rendering.scene_builder import SceneBuilder, TextureMaker
+from worker.rendering.packing import PICTURE, PLACES
+from worker.rendering.pyrender_adapter import FloatRenderer
+from worker.rendering.pyrender_scene import FlatScene
+from worker.rendering.scene_builder import BuiltScene, ModelReader, SceneBuilder, TextureMaker
 from worker.rendering.shading import surface_fields
-from worker.rendering.targets import TargetPair
-from worker.rendering.tiles import pixels_per_tile, tile_from_picture, tiles
+from worker.rendering.targets import Target, TargetPair
+from worker.rendering.tiles import (
+    LAYERED_SAMPLES_MAX,
+    SAMPLES_MAX,
+    Tile,
+    bands,
+    tile_from_picture,
+    tile_size,
+)
 from worker.stages import Report
 
+Band: TypeAlias = Mapping[str, Image]
+"""Some rows of the picture, as PICTURE, and of each layer that was asked for, by its name."""
 
-@dataclass(frozen=True, slots=True)
+
+@dataclass(slots=True)
 class Rendering:
-    """A picture and what it cost.
+    """A picture that is drawn while its bands are read, and what it cost.
 
     Attributes:
-        image: float32 (height, width, 4), linear, alpha premultiplied; 0 where nothing is.
-        timings: Milliseconds: draw_ms, and jit_ms for linking programs and their first draws.
+        bands: The picture from the top: float32 (rows, width, channels), linear, alpha
+            premultiplied; 0 where nothing is, but for the depth, which is 1e10 there.
         counts: triangles and texels.
+        timings: Milliseconds, whole after the last band: build_ms, draw_ms, and jit_ms for linking
+            programs and their first draws.
+        warnings: What uploaded models ask for and do not get.
     """
 
-    image: Image
-    timings: dict[str, float]
+    bands: Iterator[Band]
     counts: dict[str, int]
+    timings: dict[str, float]
+    warnings: tuple[str, ...]
 
 
 class _Engine:
@@ -50,21 +70,36 @@ class _Engine:
         # pyrender's destructor would call OpenGL from a half-gone interpreter.
         atexit.register(self.renderer.delete)
 
+    def trim(self) -> None:
+        """Free what exceeds the bounds of what is kept for later pictures."""
+        self.builder.trim()
+        self.renderer.trim()
+        self.targets.trim()
+
 
 @functools.cache
 def _engine() -> _Engine:
     return _Engine()
 
 
-def render(scene: Scene, output: RenderOutput, textures: TextureMaker, report: Report) -> Rendering:
+def render(
+    scene: Scene,
+    output: RenderOutput,
+    textures: TextureMaker,
+    models: ModelReader,
+    report: Report,
+) -> Rendering:
     """Draw a scene as linear light.
 
-    Always call it from the same thread; the first call opens the process's OpenGL context.
+    Always call it, and read its bands, from the same thread; the first call opens the process's
+    OpenGL context. Nothing else may be rendered before the last band is read.
 
     Args:
         scene: What to draw.
-        output: Its size and supersampling count here; the file is not this function's business.
+        output: Its size, supersampling and layers count here, the file is not this function's
+            business.
         textures: Makes the picture of a texture, read as "colour" or "data".
+        models: Reads uploaded models.
         report: Called with the finished part, 0..1, and the stage's name.
 
     Raises:
@@ -74,36 +109,89 @@ def render(scene: Scene, output: RenderOutput, textures: TextureMaker, report: R
     engine.context.check_thread()
     width, height = output.size
     report(0.0, "build")
-    built = engine.builder.build(scene, width / height, textures)
-    lights = light_uniforms(scene.lights, built.view.world_from_camera[:3, 3])
-    drawn = pyrender_scene(built.drawables, built.view)
-    pixels = np.empty((height, width, 4), dtype=np.float32)
-    start, jit_before = time.perf_counter(), engine.renderer.jit_seconds
-    side = pixels_per_tile(output.supersampling)
-    target = engine.targets.fit(min(width, side), min(height, side), output.supersampling)
-    parts = list(tiles(width, height, output.supersampling))
-    for done, tile in enumerate(parts):
-        report(done / len(parts), "draw")
-        samples = (tile.width * output.supersampling, tile.height * output.supersampling)
-        engine.renderer.draw(
-            drawn, built.view, lights, target, tile_from_picture(tile, width, height), samples
-        )
-        top = height - tile.bottom - tile.height
-        engine.targets.resolve(
-            output.supersampling,
-            pixels[top : top + tile.height, tile.left : tile.left + tile.width],
-        )
-    check("resolving samples")
-    jit = engine.renderer.jit_seconds - jit_before
-    timings = {
-        "draw_ms": round((time.perf_counter() - start - jit) * 1000, 3),
-        "jit_ms": round(jit * 1000, 3),
-    }
+    start = time.perf_counter()
+    built = engine.builder.build(
+        scene, width / height, textures, models, tangents="tangent" in output.layers
+    )
+    timings = {"build_ms": _milliseconds(time.perf_counter() - start)}
     counts = {"triangles": built.triangles, "texels": built.texels}
-    engine.builder.trim()
-    engine.renderer.trim()
+    lights = light_uniforms(built.lights, built.view.world_from_camera[:3, 3])
+    drawn = _bands(engine, built, lights, output, timings, report)
+    return Rendering(drawn, counts, timings, built.warnings)
+
+
+def _bands(
+    engine: _Engine,
+    built: BuiltScene,
+    lights: dict[str, Any],
+    output: RenderOutput,
+    timings: dict[str, float],
+    report: Report,
+) -> Iterator[Band]:
+    width, height = output.size
+    supersampling = output.supersampling
+    layered = bool(output.layers)
+    most = LAYERED_SAMPLES_MAX if layered else SAMPLES_MAX
+    size = tile_size(width, height, supersampling, most)
+    target = engine.targets.fit(*size, supersampling, layered=layered)
+    scene = FlatScene(built.drawables, built.view, built.background)
+    spent, jit_before = 0.0, engine.renderer.jit_seconds
+    for tiles in bands(width, height, size):
+        start = time.perf_counter()
+        above = height - tiles[0].bottom - tiles[0].height
+        band = _Band.empty(output.layers, tiles[0].height, width)
+        for tile in tiles:
+            report((above + tile.height * tile.left / width) / height, "draw")
+            engine.renderer.draw(
+                scene,
+                built.view,
+                lights,
+                target,
+                tile_from_picture(tile, width, height),
+                (tile.width * supersampling, tile.height * supersampling),
+                supersampling,
+            )
+            band.read(engine.targets.resolve(tile.width, tile.height, supersampling), tile)
+        check("resolving samples")
+        spent += time.perf_counter() - start
+        yield band.images()
+    jit = engine.renderer.jit_seconds - jit_before
+    timings |= {"draw_ms": _milliseconds(spent - jit), "jit_ms": _milliseconds(jit)}
+    engine.trim()
     report(1.0, "draw")
-    return Rendering(Image(pixels, "colour"), timings, counts)
+
+
+@dataclass(frozen=True, slots=True)
+class _Band:
+    """Where the pixels of a band are put together: arrays (rows, width, channels) by place."""
+
+    pixels: dict[str, NDArray[np.float32]]
+
+    @classmethod
+    def empty(cls, layers: Sequence[str], rows: int, width: int) -> Self:
+        return cls(
+            {
+                name: np.empty((rows, width, PLACES[name].channels), np.float32)
+                for name in (PICTURE, *layers)
+            }
+        )
+
+    def read(self, resolved: Target, tile: Tile) -> None:
+        """Copy a tile's part of every layer from OpenGL."""
+        columns = slice(tile.left, tile.left + tile.width)
+        for attachment in {PLACES[name].attachment for name in self.pixels}:
+            numbers = resolved.read(attachment, tile.width, tile.height)
+            for name, pixels in self.pixels.items():
+                place = PLACES[name]
+                if place.attachment == attachment:
+                    pixels[:, columns] = numbers[..., place.start : place.end]
+
+    def images(self) -> Band:
+        return {name: Image(pixels, PLACES[name].meaning) for name, pixels in self.pixels.items()}
+
+
+def _milliseconds(seconds: float) -> float:
+    return round(seconds * 1000, 3)
 
 
 def fingerprint() -> str:
@@ -120,7 +208,7 @@ def warm(report: Report) -> None:
     surfaces = list(_typical())
     for done, surface in enumerate(surfaces):
         report(done / len(surfaces), f"compile {surface['technique']}")
-        render(_poster(surface), output, _grey, lambda fraction, stage: None)
+        list(render(_poster(surface), output, _grey, _no_model, lambda fraction, stage: None).bands)
     report(1.0, "compile")
 
 
@@ -140,6 +228,10 @@ def _poster(surface: dict[str, Any]) -> Scene:
             "nodes": [{"mesh": {"type": "plane"}, "surface": surface}],
         }
     )
+
+
+def _no_model(mesh: ModelMesh) -> Model:
+    raise RenderError("there is no model to warm up with")
 
 
 def _grey(spec: TextureSpec, meaning: Meaning) -> Image:

@@ -1,32 +1,38 @@
 """From a request's scene to drawables: nodes placed, meshes and textures uploaded or found."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from typing import Protocol
 
 import numpy as np
 
-from api_schemas import meshes
-from api_schemas.camera import OrthographicCamera
 from api_schemas.families import Meaning, SurfaceSpec, TextureSpec
+from api_schemas.lights import Light
+from api_schemas.maps import ColorMap
+from api_schemas.model_mesh import ModelMesh
 from api_schemas.scene import Node, Scene
 from api_schemas.surfaces.phong import PhongSpec
+from api_schemas.surfaces.unlit import UnlitSpec
 from worker.geometry import primitives
-from worker.geometry.transforms import (
-    Matrix,
-    clip_from_camera,
-    parent_from_node,
-    world_from_camera,
-)
+from worker.geometry.mesh import Mesh
+from worker.geometry.model import Model, Part
+from worker.geometry.tangents import with_tangents
+from worker.geometry.transforms import Matrix, parent_from_node
 from worker.images.image import Image
 from worker.images.pyramids import mip_chain
 from worker.rendering.cache import ByteCache
-from worker.rendering.pyrender_adapter import Drawable, UploadedMesh, View, delete_mesh, upload_mesh
-from worker.rendering.shading import shade
+from worker.rendering.model_changes import seen_parts
+from worker.rendering.pyrender_scene import Background, Drawable, View
+from worker.rendering.shading import Shading, shade, tangent_uv_set
+from worker.rendering.staging import PlacedModel, lights_of, view_of
 from worker.rendering.textures import Texture
+from worker.rendering.vertex_arrays import VertexArray
 
 TEXTURE_BYTES_MAX = 128 << 20
 MESH_BYTES_MAX = 64 << 20
+LARGEST_LIGHT = 5e36
+"""Of a picture, as in lib/picture.glsl."""
 _MATT_GREY = PhongSpec(technique="phong")
 
 
@@ -37,14 +43,34 @@ class TextureMaker(Protocol):
         """Return the picture, read as colour or as data."""
 
 
+class ModelReader(Protocol):
+    """Reads uploaded models."""
+
+    def __call__(self, mesh: ModelMesh, /) -> Model:
+        """Return the model."""
+
+
 @dataclass(frozen=True, slots=True)
 class BuiltScene:
     """What a picture is drawn from, and how much of it there is."""
 
     drawables: tuple[Drawable, ...]
     view: View
+    lights: tuple[Light, ...]
+    background: Background | None
     triangles: int
     texels: int
+    warnings: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class _Placed:
+    """A mesh that is kept or can be made, its surface, and where it stands."""
+
+    key: str
+    mesh: Callable[[], Mesh]
+    surface: SurfaceSpec
+    world_from_object: Matrix
 
 
 class SceneBuilder:
@@ -53,40 +79,73 @@ class SceneBuilder:
     def __init__(self) -> None:
         """Begin with nothing in OpenGL."""
         self._textures = ByteCache[Texture](TEXTURE_BYTES_MAX, Texture.delete)
-        self._meshes = ByteCache[UploadedMesh](MESH_BYTES_MAX, delete_mesh)
+        self._meshes = ByteCache[VertexArray](MESH_BYTES_MAX, VertexArray.delete)
 
-    def build(self, scene: Scene, aspect: float, maker: TextureMaker) -> BuiltScene:
+    def build(
+        self,
+        scene: Scene,
+        aspect: float,
+        maker: TextureMaker,
+        reader: ModelReader,
+        *,
+        tangents: bool = False,
+    ) -> BuiltScene:
         """Place, upload and lay out everything in a scene.
 
         Args:
             scene: The request's.
             aspect: Width over height of the picture.
             maker: Makes the pictures of textures that are not kept from an earlier scene.
+            reader: Reads the uploaded models.
+            tangents: Whether all meshes need them, not only those with normal maps.
 
         Raises:
-            WorkerError: The camera is degenerate, a budget is exceeded, a texture cannot be made.
+            WorkerError: The camera is degenerate, a budget is exceeded, a texture cannot be made,
+                a model cannot be read or has no such part.
         """
-        view = View(
-            world_from_camera=world_from_camera(scene.camera.pose),
-            clip_from_camera=clip_from_camera(scene.camera, aspect),
-            orthographic=isinstance(scene.camera, OrthographicCamera),
-        )
+        placed: list[_Placed] = []
+        models: list[PlacedModel] = []
+        for node, matrix in _nodes(scene.nodes, np.eye(4)):
+            if isinstance(node.mesh, ModelMesh):
+                model = reader(node.mesh)
+                models.append(PlacedModel(model, matrix))
+                placed += _parts(node.mesh, node.surface, model, matrix)
+            elif node.mesh is not None:
+                key = node.mesh.model_dump_json()
+                make = partial(primitives.build, node.mesh)
+                placed.append(_Placed(key, make, node.surface or _MATT_GREY, matrix))
+        kept = [self._kept(item, tangents) for item in placed]
+        worn: dict[str, tuple[Shading, int]] = {}
         drawables = []
-        triangles = 0
-        for node, matrix in _placed(scene.nodes, np.eye(4)):
-            if node.mesh is not None:
-                drawables.append(self._drawable(node.mesh, node.surface, matrix, maker))
-                triangles += node.mesh.triangles
+        for item, mesh in zip(placed, kept, strict=True):
+            key = item.surface.model_dump_json()
+            if key not in worn:
+                worn[key] = self._shading(item.surface, maker), len(worn) + 1
+            drawables.append(Drawable(mesh, worn[key][0], item.world_from_object, worn[key][1]))
+        vertices = (
+            (mesh.positions, item.world_from_object)
+            for item, mesh in zip(placed, kept, strict=True)
+        )
+        view = view_of(scene.camera, models, vertices, aspect)
+        background = self._background(scene.background, maker)
+        shadings = [drawable.shading for drawable in drawables]
+        if background is not None and background.shading is not None:
+            shadings.append(background.shading)
         pictures = {
             picture.texture.number: picture.texture
-            for drawable in drawables
-            for picture in drawable.shading.pictures
+            for shading in shadings
+            for picture in shading.pictures
         }
         return BuiltScene(
             drawables=tuple(drawables),
             view=view,
-            triangles=triangles,
+            background=background,
+            lights=tuple(lights_of(scene.lights, models, view.world_from_camera)),
+            triangles=sum(len(mesh.elements) for mesh in kept),
             texels=sum(texture.width * texture.height for texture in pictures.values()),
+            warnings=tuple(
+                dict.fromkeys(warning for item in models for warning in item.model.warnings)
+            ),
         )
 
     def trim(self) -> None:
@@ -94,34 +153,60 @@ class SceneBuilder:
         self._textures.trim()
         self._meshes.trim()
 
-    def _drawable(
-        self,
-        mesh: meshes.Mesh,
-        surface: SurfaceSpec | None,
-        matrix: Matrix,
-        maker: TextureMaker,
-    ) -> Drawable:
+    def _kept(self, item: _Placed, tangents: bool) -> VertexArray:
+        uv_set = tangent_uv_set(item.surface)
+        if tangents and uv_set is None:
+            uv_set = 0
+
+        def make() -> tuple[VertexArray, int]:
+            mesh = item.mesh()
+            if uv_set is not None:
+                mesh = with_tangents(mesh, uv_set)
+            uploaded = VertexArray.upload(mesh)
+            return uploaded, uploaded.size_bytes
+
+        return self._meshes.get((item.key, uv_set), make)
+
+    def _shading(self, surface: SurfaceSpec, maker: TextureMaker) -> Shading:
         def texture_of(spec: TextureSpec, meaning: Meaning, *, levels: bool) -> Texture:
             key = (spec.model_dump_json(), meaning, levels)
             return self._textures.get(key, lambda: _upload(maker(spec, meaning), levels))
 
-        return Drawable(
-            primitive=self._meshes.get(mesh.model_dump_json(), lambda: _mesh(mesh)),
-            shading=shade(surface or _MATT_GREY, texture_of),
-            world_from_object=matrix,
-        )
+        return shade(surface, texture_of)
+
+    def _background(
+        self, spec: list[float] | ColorMap | None, maker: TextureMaker
+    ) -> Background | None:
+        if spec is None:
+            return None
+        if isinstance(spec, ColorMap):
+            surface = UnlitSpec(technique="unlit", color=spec)
+            return Background(color=None, shading=self._shading(surface, maker))
+        return Background(color=tuple(min(value, LARGEST_LIGHT) for value in spec), shading=None)
 
 
-def _placed(nodes: list[Node], world_from_parent: Matrix) -> Iterator[tuple[Node, Matrix]]:
+def _nodes(nodes: list[Node], world_from_parent: Matrix) -> Iterator[tuple[Node, Matrix]]:
     for node in nodes:
         matrix = world_from_parent @ parent_from_node(node.transform)
         yield node, matrix
-        yield from _placed(node.children, matrix)
+        yield from _nodes(node.children, matrix)
 
 
-def _mesh(spec: meshes.Mesh) -> tuple[UploadedMesh, int]:
-    mesh = primitives.build(spec)
-    return upload_mesh(mesh), mesh.size_bytes
+def _parts(
+    mesh: ModelMesh, surface: SurfaceSpec | None, model: Model, matrix: Matrix
+) -> Iterator[_Placed]:
+    beside = "".join(f"{name} {asset} " for name, asset in sorted(mesh.files.items()))
+    for part, worn in seen_parts(mesh, model):
+        yield _Placed(
+            key=f"{mesh.asset} {beside}{part.key}",
+            mesh=partial(_mesh_of, part),
+            surface=surface or worn or _MATT_GREY,
+            world_from_object=matrix @ part.matrix,
+        )
+
+
+def _mesh_of(part: Part) -> Mesh:
+    return part.mesh
 
 
 def _upload(image: Image, levels: bool) -> tuple[Texture, int]:

@@ -3,6 +3,7 @@
 The layout decides the program; numbers, transforms and channels are uniforms and do not.
 """
 
+import functools
 import json
 import math
 import re
@@ -12,8 +13,9 @@ from typing import Any, Protocol, get_args
 
 import numpy as np
 
-from api_schemas.families import Meaning, SurfaceSpec, TextureSpec
-from api_schemas.maps import ColorMap, Filter, Map, NumberMap, TextureTransform
+from api_schemas.coordinates.uv import UvSpec
+from api_schemas.families import AlphaMode, Meaning, SurfaceSpec, TextureSpec
+from api_schemas.maps import ColorMap, Filter, Map, NormalMap, NumberMap, TextureTransform
 from worker.errors import RenderError
 from worker.rendering.chunks import chunk
 from worker.rendering.samplers import Sampling
@@ -42,9 +44,17 @@ class Parameter:
 
 @dataclass(frozen=True, slots=True)
 class LookupLayout:
-    """One reading of a picture; parameters that share a lookup cost one."""
+    """One reading of a picture; parameters that share a lookup cost one.
+
+    Attributes:
+        coordinates: The technique that says where.
+        choices: Its parameters, in the order of its fields; they are constants of the program.
+        filter: How texels become a pixel.
+        picture: Which unit is read.
+    """
 
     coordinates: str
+    choices: tuple[int, ...]
     filter: Filter
     picture: int
 
@@ -59,10 +69,23 @@ class PictureLayout:
 
 @dataclass(frozen=True, slots=True)
 class ShadingLayout:
-    """What decides a program; equal layouts share a program object."""
+    """What decides a program; equal layouts share a program object.
+
+    Attributes:
+        technique: The surface's.
+        parameters: In the order of its struct.
+        alpha_mode: Whether opacity is ignored, cuts holes, or lets through what is behind.
+        opacity: How it is read, unless it is ignored.
+        normal: The lookup that tilts the normal, if there is a normal map.
+        lookups: Readings of pictures.
+        pictures: Texture units.
+    """
 
     technique: str
     parameters: tuple[Parameter, ...]
+    alpha_mode: AlphaMode
+    opacity: Parameter | None
+    normal: int | None
     lookups: tuple[LookupLayout, ...]
     pictures: tuple[PictureLayout, ...]
 
@@ -78,13 +101,15 @@ class Picture:
 
 @dataclass(frozen=True, slots=True)
 class Shading:
-    """A surface ready to draw."""
+    """A surface ready to draw; `double_sided` says whether its inner side is drawn too."""
 
     layout: ShadingLayout
     uniforms: dict[str, Any]
     pictures: tuple[Picture, ...]
+    double_sided: bool
 
 
+@functools.cache
 def surface_fields(technique: str) -> dict[str, str]:
     """Return name and GLSL type of each field in the technique's struct Surface.
 
@@ -108,16 +133,29 @@ def shade(surface: SurfaceSpec, texture_of: TextureSource) -> Shading:
         plan.parameter(surface, name, kind)
         for name, kind in surface_fields(surface.technique).items()
     )
+    opacity = plan.opacity(surface)
+    normal = None if surface.normal is None else plan.normal(surface.normal)
     pictures = tuple(plan.pictures)
     layout = ShadingLayout(
         technique=surface.technique,
         parameters=parameters,
+        alpha_mode=surface.alpha_mode,
+        opacity=opacity,
+        normal=normal,
         lookups=tuple(lookup.layout for lookup in plan.lookups),
         pictures=tuple(
             PictureLayout(picture.sampling, picture.texture.format) for picture in pictures
         ),
     )
-    return Shading(layout, plan.all_uniforms(), pictures)
+    return Shading(layout, plan.all_uniforms(), pictures, surface.double_sided)
+
+
+def tangent_uv_set(surface: SurfaceSpec) -> int | None:
+    """Return which of a mesh's uv sets its tangents follow, if the surface needs tangents."""
+    if surface.normal is None:
+        return None
+    coordinates = surface.normal.coordinates
+    return coordinates.set if isinstance(coordinates, UvSpec) else 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,18 +176,35 @@ class _Plan:
 
     def parameter(self, surface: SurfaceSpec, name: str, kind: str) -> Parameter:
         value = getattr(surface, name)
-        if not isinstance(value, Map):
+        if not isinstance(value, ColorMap | NumberMap):
             self._uniforms[name + "_value"] = _plain(surface, name, kind, value)
             return Parameter(name, kind, None)
-        self._uniforms[name + "_scale_bias"] = (value.scale, value.bias)
+        self._uniforms[name + "_bias"] = value.bias
         if isinstance(value, NumberMap):
+            self._uniforms[name + "_scale"] = value.scale
             self._uniforms[name + "_channel"] = "rgba".index(value.channel)
+        else:
+            self._uniforms[name + "_scale"] = value.scale * np.array(value.tint)
         return Parameter(name, kind, self._lookup(value, _MEANINGS[kind]))
 
-    def _lookup(self, mapped: Map, meaning: Meaning) -> int:
-        assert isinstance(mapped, ColorMap | NumberMap)
+    def opacity(self, surface: SurfaceSpec) -> Parameter | None:
+        """Lay out the opacity, unless it is ignored."""
+        if surface.alpha_mode == "opaque":
+            return None
+        if surface.alpha_mode == "mask":
+            self._uniforms["alpha_cutoff"] = surface.alpha_cutoff
+        return self.parameter(surface, "opacity", "float")
+
+    def normal(self, mapped: NormalMap) -> int:
+        """Lay out a normal map; return its lookup."""
+        self._uniforms["normal_range"] = (2.0, -1.0) if mapped.range == "unit" else (1.0, 0.0)
+        self._uniforms["normal_axes"] = _normal_axes(mapped).ravel()
+        return self._lookup(mapped, "data")
+
+    def _lookup(self, mapped: ColorMap | NumberMap | NormalMap, meaning: Meaning) -> int:
         picture = self._picture(mapped, mapped.texture, meaning)
-        layout = LookupLayout(mapped.coordinates.technique, mapped.filter, picture)
+        technique, *choices = mapped.coordinates.model_dump().values()
+        layout = LookupLayout(technique, tuple(choices), mapped.filter, picture)
         key = json.dumps(
             [picture, mapped.filter, mapped.coordinates.model_dump(), mapped.transform.model_dump()]
         )
@@ -191,15 +246,29 @@ def texture_from_uv(transform: TextureTransform, period: Sequence[float]) -> np.
 
     The shift is brought into the wrap's period here, in float64, where whole tiles cost no bits.
     """
-    cosine, sine = math.cos(transform.rotation), math.sin(transform.rotation)
-    turn = np.array([[cosine, -sine], [sine, cosine]])
     matrix = np.eye(3)
-    matrix[:2, :2] = turn * np.array(transform.scale)
+    matrix[:2, :2] = _turn(transform) * np.array(transform.scale)
     matrix[:2, 2] = [
         shift - length * math.floor(shift / length) if length else shift
         for shift, length in zip(transform.offset, period, strict=True)
     ]
     return matrix
+
+
+def _normal_axes(mapped: NormalMap) -> np.ndarray:
+    """Give the 2 x 2 matrix that takes a normal map's x and y to where u and v grow.
+
+    A picture that is turned or mirrored on the surface has its own x and y turned or mirrored.
+    """
+    mirrored = np.where(np.array(mapped.transform.scale) < 0, -1.0, 1.0)
+    green = 1.0 if mapped.green == "up" else -1.0
+    picture_from_uv = _turn(mapped.transform) * mirrored
+    return picture_from_uv.T * (mapped.strength * np.array([1.0, green]))
+
+
+def _turn(transform: TextureTransform) -> np.ndarray:
+    cosine, sine = math.cos(transform.rotation), math.sin(transform.rotation)
+    return np.array([[cosine, -sine], [sine, cosine]])
 
 
 def _plain(surface: SurfaceSpec, name: str, kind: str, value: Any) -> Any:

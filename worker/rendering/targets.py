@@ -1,4 +1,4 @@
-"""Float framebuffers: where samples are drawn, and where they are averaged to pixels."""
+"""Float framebuffers: where samples are drawn, and where they are resolved to pixels."""
 
 from dataclasses import dataclass
 
@@ -8,56 +8,69 @@ from numpy.typing import NDArray
 from worker.errors import RenderError
 from worker.rendering.chunks import chunk, join
 from worker.rendering.gl_context import GL
+from worker.rendering.packing import ATTACHMENTS, AVERAGED
 from worker.rendering.programs import Program
 
 
 @dataclass(frozen=True, slots=True)
 class Target:
-    """An RGBA float32 texture to draw into, with or without a float32 depth buffer."""
+    """RGBA float32 textures to draw into, with or without a float32 depth buffer.
+
+    The first is the picture; with `packing.ATTACHMENTS` of them the others are layers.
+    """
 
     framebuffer: int
-    colour: int
+    textures: tuple[int, ...]
     depth: int | None
     width: int
     height: int
 
     @classmethod
-    def create(cls, width: int, height: int, *, depth: bool) -> "Target":
+    def create(cls, width: int, height: int, *, attachments: int, depth: bool) -> "Target":
         """Allocate a framebuffer of one size.
 
         Raises:
             RenderError: OpenGL has no such framebuffer.
         """
         framebuffer = int(GL.glGenFramebuffers(1))
-        colour = int(GL.glGenTextures(1))
-        GL.glBindTexture(GL.GL_TEXTURE_2D, colour)
-        GL.glTexImage2D(
-            GL.GL_TEXTURE_2D, 0, GL.GL_RGBA32F, width, height, 0, GL.GL_RGBA, GL.GL_FLOAT, None
-        )
-        GL.glTexParameteri(GL.GL_TEXTURE_2D, GL.GL_TEXTURE_MIN_FILTER, GL.GL_NEAREST)
-        GL.glTexParameteri(GL.GL_TEXTURE_2D, GL.GL_TEXTURE_MAG_FILTER, GL.GL_NEAREST)
-        GL.glBindTexture(GL.GL_TEXTURE_2D, 0)
         GL.glBindFramebuffer(GL.GL_FRAMEBUFFER, framebuffer)
-        GL.glFramebufferTexture2D(
-            GL.GL_FRAMEBUFFER, GL.GL_COLOR_ATTACHMENT0, GL.GL_TEXTURE_2D, colour, 0
-        )
+        places = [GL.GL_COLOR_ATTACHMENT0 + index for index in range(attachments)]
+        textures = tuple(_texture(width, height) for _ in places)
+        for place, texture in zip(places, textures, strict=True):
+            GL.glFramebufferTexture2D(GL.GL_FRAMEBUFFER, place, GL.GL_TEXTURE_2D, texture, 0)
+        GL.glDrawBuffers(attachments, places)
         buffer = _depth_buffer(width, height) if depth else None
         status = int(GL.glCheckFramebufferStatus(GL.GL_FRAMEBUFFER))
         if status != int(GL.GL_FRAMEBUFFER_COMPLETE):
             raise RenderError(f"a {width} x {height} float framebuffer is incomplete: {status:#x}")
-        return cls(framebuffer, colour, buffer, width, height)
+        return cls(framebuffer, textures, buffer, width, height)
 
-    def read(self, width: int, height: int, out: NDArray[np.float32]) -> None:
-        """Copy the lower left part of the target into (height, width, 4), top row first."""
+    @property
+    def layered(self) -> bool:
+        """Whether there are layers beside the picture."""
+        return len(self.textures) > 1
+
+    def write(self, *, averaged: bool, nearest: bool) -> None:
+        """Choose which layers the next draws change; the picture always is.
+
+        What lets light through changes only the layers that are averaged, what is no thing none.
+        """
+        for index in range(1, len(self.textures)):
+            on = averaged if index < AVERAGED else nearest
+            GL.glColorMaski(index, on, on, on, on)
+
+    def read(self, attachment: int, width: int, height: int) -> NDArray[np.float32]:
+        """Copy the lower left part of an attachment: (height, width, 4), top row first."""
         GL.glBindFramebuffer(GL.GL_READ_FRAMEBUFFER, self.framebuffer)
+        GL.glReadBuffer(GL.GL_COLOR_ATTACHMENT0 + attachment)
         rows = np.empty((height, width, 4), dtype=np.float32)
         GL.glReadPixels(0, 0, width, height, GL.GL_RGBA, GL.GL_FLOAT, rows)
-        out[:] = rows[::-1]
+        return rows[::-1]
 
     def delete(self) -> None:
         """Free it."""
         GL.glDeleteFramebuffers(1, [self.framebuffer])
-        GL.glDeleteTextures([self.colour])
+        GL.glDeleteTextures(list(self.textures))
         if self.depth is not None:
             GL.glDeleteRenderbuffers(1, [self.depth])
 
@@ -69,68 +82,103 @@ class TargetPair:
         """Begin without targets; they are allocated when a size is known."""
         self._samples: Target | None = None
         self._pixels: Target | None = None
-        self._program: Program | None = None
+        self._programs: dict[str, Program] = {}
         self._no_vertices = 0
 
-    def fit(self, width: int, height: int, supersampling: int) -> Target:
-        """Return a sample target for tiles of so many pixels, kept until another size is needed."""
-        self._samples = _fitting(
-            self._samples, width * supersampling, height * supersampling, depth=True
-        )
-        if supersampling > 1:
-            self._pixels = _fitting(self._pixels, width, height, depth=False)
+    def fit(self, width: int, height: int, supersampling: int, *, layered: bool) -> Target:
+        """Return a sample target for tiles of so many pixels, kept until another one is needed."""
+        attachments = ATTACHMENTS if layered else 1
+        size = (width * supersampling, height * supersampling)
+        self._samples = _fitting(self._samples, size, attachments, depth=True)
+        if layered or supersampling > 1:
+            self._pixels = _fitting(self._pixels, (width, height), attachments, depth=False)
         return self._samples
 
-    def resolve(self, supersampling: int, out: NDArray[np.float32]) -> None:
-        """Average the samples drawn in the sample target into the pixels of `out`.
+    def resolve(self, width: int, height: int, supersampling: int) -> Target:
+        """Make pixels of the samples in the sample target.
 
         Args:
+            width: Of the tile in pixels.
+            height: Of the tile in pixels.
             supersampling: Samples per pixel along each side.
-            out: float32 (height, width, 4) to fill, top row first.
+
+        Returns:
+            The target whose lower left part holds the pixels.
         """
         assert self._samples is not None
-        height, width, _ = out.shape
-        if supersampling == 1:
-            self._samples.read(width, height, out)
-            return
+        if supersampling == 1 and not self._samples.layered:
+            return self._samples
         assert self._pixels is not None
-        if self._program is None:
-            names = ("whole_target.vert", "resolve.frag")
-            self._program = Program.link(*(join(chunk(name), name) for name in names))
-            self._no_vertices = int(GL.glGenVertexArrays(1))
         GL.glBindFramebuffer(GL.GL_DRAW_FRAMEBUFFER, self._pixels.framebuffer)
         GL.glViewport(0, 0, width, height)
         GL.glDisable(GL.GL_DEPTH_TEST)
         GL.glDisable(GL.GL_CULL_FACE)
         GL.glDisable(GL.GL_BLEND)
-        self._program.bind()
-        GL.glActiveTexture(GL.GL_TEXTURE0)
-        GL.glBindTexture(GL.GL_TEXTURE_2D, self._samples.colour)
-        GL.glBindSampler(0, 0)
-        self._program.set("samples", 0)
-        self._program.set("samples_per_side", supersampling)
+        self._samples.write(averaged=True, nearest=True)
+        program = self._program("resolve_layers.frag" if self._samples.layered else "resolve.frag")
+        program.bind()
+        for unit, texture in enumerate(self._samples.textures):
+            GL.glActiveTexture(GL.GL_TEXTURE0 + unit)
+            GL.glBindTexture(GL.GL_TEXTURE_2D, texture)
+            GL.glBindSampler(unit, 0)
+            program.set(f"samples_{unit}", unit)
+        program.set("samples_per_side", supersampling)
         GL.glBindVertexArray(self._no_vertices)
         GL.glDrawArrays(GL.GL_TRIANGLES, 0, 3)
         GL.glBindVertexArray(0)
-        GL.glBindTexture(GL.GL_TEXTURE_2D, 0)
-        self._pixels.read(width, height, out)
+        for unit in range(len(self._samples.textures)):
+            GL.glActiveTexture(GL.GL_TEXTURE0 + unit)
+            GL.glBindTexture(GL.GL_TEXTURE_2D, 0)
+        return self._pixels
+
+    def trim(self) -> None:
+        """Free targets with layers, which are large and seldom wanted."""
+        if self._samples is not None and self._samples.layered:
+            self._free()
 
     def delete(self) -> None:
         """Free everything."""
-        for held in (self._samples, self._pixels, self._program):
-            if held is not None:
-                held.delete()
+        self._free()
+        for program in self._programs.values():
+            program.delete()
         if self._no_vertices:
             GL.glDeleteVertexArrays(1, [self._no_vertices])
         self.__init__()  # type: ignore[misc]
 
+    def _free(self) -> None:
+        for held in (self._samples, self._pixels):
+            if held is not None:
+                held.delete()
+        self._samples = self._pixels = None
 
-def _fitting(held: Target | None, width: int, height: int, *, depth: bool) -> Target:
+    def _program(self, fragment: str) -> Program:
+        if fragment not in self._programs:
+            names = ("whole_target.vert", fragment)
+            self._programs[fragment] = Program.link(*(join(chunk(name), name) for name in names))
+            self._no_vertices = self._no_vertices or int(GL.glGenVertexArrays(1))
+        return self._programs[fragment]
+
+
+def _fitting(
+    held: Target | None, size: tuple[int, int], attachments: int, *, depth: bool
+) -> Target:
     if held is not None:
-        if (held.width, held.height) == (width, height):
+        if (held.width, held.height, len(held.textures)) == (*size, attachments):
             return held
         held.delete()
-    return Target.create(width, height, depth=depth)
+    return Target.create(*size, attachments=attachments, depth=depth)
+
+
+def _texture(width: int, height: int) -> int:
+    texture = int(GL.glGenTextures(1))
+    GL.glBindTexture(GL.GL_TEXTURE_2D, texture)
+    GL.glTexImage2D(
+        GL.GL_TEXTURE_2D, 0, GL.GL_RGBA32F, width, height, 0, GL.GL_RGBA, GL.GL_FLOAT, None
+    )
+    GL.glTexParameteri(GL.GL_TEXTURE_2D, GL.GL_TEXTURE_MIN_FILTER, GL.GL_NEAREST)
+    GL.glTexParameteri(GL.GL_TEXTURE_2D, GL.GL_TEXTURE_MAG_FILTER, GL.GL_NEAREST)
+    GL.glBindTexture(GL.GL_TEXTURE_2D, 0)
+    return texture
 
 
 def _depth_buffer(width: int, height: int) -> int:

@@ -1,12 +1,18 @@
-"""Cut a picture into tiles that fit a bounded framebuffer."""
+"""Cut a picture into bands of tiles that fit a bounded framebuffer."""
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-SAMPLES_MAX = 2048
+from api_schemas.output import SIDE_MAX
+
+SAMPLES_MAX = 2048 * 2048
+"""Samples of a tile: a picture's take 84 MB with their depth."""
+LAYERED_SAMPLES_MAX = 1024 * 1024
+"""The same with all layers: 121 MB, and 117 MB for the pixels they are resolved to."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,17 +25,33 @@ class Tile:
     height: int
 
 
-def pixels_per_tile(supersampling: int) -> int:
-    """Return a tile's side in pixels: even, so that no 2 x 2 block of derivatives is cut."""
-    return SAMPLES_MAX // supersampling // 2 * 2
+def tile_size(width: int, height: int, supersampling: int, samples_max: int) -> tuple[int, int]:
+    """Return width and height in pixels of the tiles of a picture of so many pixels.
+
+    Tiles are about as wide as a framebuffer may be, so that few of them make the rows of a band.
+    Their sides are those of the picture or even, so that no 2 x 2 block of derivatives is cut.
+    """
+    side = SIDE_MAX // supersampling // 2 * 2
+    columns = math.ceil(width / side)
+    tile_width = min(width, math.ceil(width / columns / 2) * 2)
+    rows = min(side, samples_max // (tile_width * supersampling**2))
+    return tile_width, min(height, max(2, rows // 2 * 2))
 
 
-def tiles(width: int, height: int, supersampling: int) -> Iterator[Tile]:
-    """Cut a picture of so many pixels into tiles of at most 2048 x 2048 samples, row by row."""
-    side = pixels_per_tile(supersampling)
-    for bottom in range(0, height, side):
-        for left in range(0, width, side):
-            yield Tile(left, bottom, min(side, width - left), min(side, height - bottom))
+def bands(width: int, height: int, size: tuple[int, int]) -> Iterator[list[Tile]]:
+    """Cut a picture into bands, the topmost first, and each band into tiles, the leftmost first.
+
+    Args:
+        width: Of the picture in pixels.
+        height: Of the picture in pixels.
+        size: Of the largest tile; what is left over goes to the uppermost and rightmost ones.
+    """
+    tile_width, tile_height = size
+    for bottom in reversed(range(0, height, tile_height)):
+        yield [
+            Tile(left, bottom, min(tile_width, width - left), min(tile_height, height - bottom))
+            for left in range(0, width, tile_width)
+        ]
 
 
 def tile_from_picture(tile: Tile, width: int, height: int) -> NDArray[np.float64]:

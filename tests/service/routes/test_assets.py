@@ -154,6 +154,17 @@ def test_head_tells_what_get_would(client, asset):
     }
 
 
+def test_a_caller_that_has_the_facts_gets_304(client, asset):
+    as_json = {"Accept": "application/json"}
+    etag = client.get(asset[1], headers=as_json).headers["etag"]
+    again = client.get(asset[1], headers=as_json | {"If-None-Match": etag})
+    head = client.head(asset[1], headers=as_json)
+
+    assert (again.status_code, again.content) == (304, b"")
+    assert client.get(asset[1], headers={"If-None-Match": etag}).status_code == 200, "the file"
+    assert head.headers["etag"] == etag
+
+
 def test_json_gets_the_facts(client, asset):
     content, location = asset
     response = client.get(location, headers={"Accept": "application/json"})

@@ -2,7 +2,7 @@
 
 import hashlib
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 
 from api_schemas.output import RenderOutput
 from api_schemas.scene import Scene
+from worker.geometry.mesh import Mesh
+from worker.geometry.model import Model, Part
 from worker.images.image import Image
 
 Pixels = NDArray[np.float32]
@@ -21,6 +23,7 @@ class Studio:
     def __init__(self, render: Callable[..., Any]) -> None:
         self._render = render
         self._arrays: dict[str, Pixels] = {}
+        self.models: dict[str, Model] = {}
         self.facts: dict[str, Any] = {}
         self.reports: list[tuple[float, str]] = []
 
@@ -37,18 +40,43 @@ class Studio:
         """The array of a texture spec."""
         return self._arrays[texture["asset"]]
 
+    def mesh(self, mesh: Mesh) -> dict[str, Any]:
+        """Make a mesh spec of vertices."""
+        arrays = (mesh.positions, mesh.normals, *mesh.uv_sets, mesh.triangles)
+        more = (mesh.tangents, mesh.colors)
+        name = hashlib.sha256(
+            b"".join(repr(a.shape).encode() + a.tobytes() for a in arrays)
+            + b"".join(b"-" if a is None else a.tobytes() for a in more)
+            + mesh.kind.encode()
+        ).hexdigest()
+        part = Part(mesh, np.eye(4), None, None, "")
+        self.models[name] = Model((part,), (), (), (), (), {}, ())
+        return {"type": "model", "asset": name}
+
     def draw(
         self, scene: dict[str, Any], size: tuple[int, int] = (32, 32), supersampling: int = 1
     ) -> Pixels:
         """Draw a scene given as JSON; float32 (height, width, 4)."""
+        return self.layers(scene, [], size, supersampling)["picture"]
+
+    def layers(
+        self,
+        scene: dict[str, Any],
+        names: Sequence[str],
+        size: tuple[int, int] = (32, 32),
+        supersampling: int = 1,
+    ) -> dict[str, Pixels]:
+        """Draw a scene with some layers; float32 (height, width, channels), by name."""
         rendering = self._render(
             Scene.model_validate_json(json.dumps(scene)),
-            RenderOutput(size=list(size), supersampling=supersampling),
+            RenderOutput(size=list(size), supersampling=supersampling, layers=list(names)),
             lambda spec, meaning: Image(self._arrays[spec.asset], meaning),
+            lambda mesh: self.models[mesh.asset],
             lambda fraction, stage: self.reports.append((fraction, stage)),
         )
+        bands = list(rendering.bands)
         self.facts = rendering.timings | rendering.counts
-        return rendering.image.pixels
+        return {name: np.concatenate([band[name].pixels for band in bands]) for name in bands[0]}
 
     def poster(
         self, surface: dict[str, Any], size: tuple[int, int] = (32, 32), **more: Any

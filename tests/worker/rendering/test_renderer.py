@@ -8,7 +8,6 @@ import pytest
 
 from tests.worker.rendering.studio import Studio
 from worker.errors import RenderError
-from worker.rendering import tiles
 
 pytestmark = pytest.mark.gl
 
@@ -47,9 +46,11 @@ def still_life(studio: Studio) -> dict[str, Any]:
 def test_a_picture_in_tiles_is_the_picture(
     studio: Studio, monkeypatch: pytest.MonkeyPatch, supersampling: int
 ) -> None:
+    from worker.rendering import renderer  # noqa: PLC0415  needs OpenGL
+
     scene = still_life(studio)
     whole = studio.draw(scene, (150, 110), supersampling)
-    monkeypatch.setattr(tiles, "SAMPLES_MAX", 64 * supersampling)
+    monkeypatch.setattr(renderer, "tile_size", lambda *picture: (64, 64))
 
     cut = studio.draw(scene, (150, 110), supersampling)
 

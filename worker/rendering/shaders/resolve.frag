@@ -1,5 +1,5 @@
 #version 410 core
-uniform sampler2D samples;
+uniform sampler2D samples_0;
 uniform int samples_per_side;
 layout(location = 0) out vec4 pixel;
 
@@ -9,6 +9,6 @@ void main() {
     vec4 sum = vec4(0.0);
     for (int y = 0; y < samples_per_side; y++)
         for (int x = 0; x < samples_per_side; x++)
-            sum += texelFetch(samples, corner + ivec2(x, y), 0);
+            sum += texelFetch(samples_0, corner + ivec2(x, y), 0);
     pixel = sum / float(samples_per_side * samples_per_side);
 }

@@ -5,12 +5,13 @@
 // linear on the screen, so that their differences between pixels are derivatives, and the quotient
 // rule gives those of uv at this very pixel (Heckbert 1989); a plain difference of uv would be one
 // between two pixels.
-Footprint coordinates_uv(SurfacePoint point) {
+Footprint coordinates_uv(SurfacePoint point, int set) {
+    vec2 uv = point.uv[set];
     float inverse_w = gl_FragCoord.w;
-    vec2 scaled = point.uv * inverse_w;
+    vec2 scaled = uv * inverse_w;
     return Footprint(
-        point.uv,
-        (dFdx(scaled) - point.uv * dFdx(inverse_w)) / inverse_w,
-        (dFdy(scaled) - point.uv * dFdy(inverse_w)) / inverse_w
+        uv,
+        (dFdx(scaled) - uv * dFdx(inverse_w)) / inverse_w,
+        (dFdy(scaled) - uv * dFdy(inverse_w)) / inverse_w
     );
 }

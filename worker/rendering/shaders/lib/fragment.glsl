@@ -1,24 +1,24 @@
+#include "lib/picture.glsl"
 #include "lib/surface_point.glsl"
 in vec3 vertex_position;
 in vec3 vertex_normal;
-in vec2 vertex_uv;
+in vec4 vertex_tangent;
+in vec4 vertex_color;
+in vec2 vertex_uv_0;
+in vec2 vertex_uv_1;
+in vec2 vertex_uv_2;
+in vec2 vertex_uv_3;
 uniform vec4 eye;  // (0, 0, 0, 1), or the direction towards an orthographic camera and 0
-layout(location = 0) out vec4 color;
-
-const float LARGEST = 5e36;  // 64 samples of it, a pixel's, still add up to a number
-
-// Light that a picture can hold: the rest is cut off, and what is no number is dark.
-vec4 holdable(vec4 light) {
-    return mix(clamp(light, -LARGEST, LARGEST), vec4(0.0), isnan(light));
-}
 
 // Both sides of a surface are lit: the normal is turned to the side that is seen.
 SurfacePoint surface_point() {
-    vec3 normal = normalize(vertex_normal);
+    vec3 normal = vertex_normal == vec3(0.0) ? vec3(0.0) : normalize(vertex_normal);
     return SurfacePoint(
         vertex_position,
         gl_FrontFacing ? normal : -normal,
         normalize(eye.xyz - eye.w * vertex_position),
-        vertex_uv
+        vertex_tangent,
+        vertex_color,
+        vec2[4](vertex_uv_0, vertex_uv_1, vertex_uv_2, vertex_uv_3)
     );
 }

@@ -1,7 +1,9 @@
 // Where the eye meets a surface. Directions are unit vectors in world axes.
 struct SurfacePoint {
     vec3 position;  // world axes, seen from the eye
-    vec3 normal;    // on the eye's side of the surface
+    vec3 normal;    // on the eye's side of the surface; none, (0, 0, 0), of lines and points without
     vec3 view;      // towards the eye
-    vec2 uv;        // the mesh's texture coordinates
+    vec4 tangent;   // as interpolated: where u grows, and the bitangent's sign
+    vec4 color;     // the mesh's, white if it has none
+    vec2 uv[4];     // the mesh's texture coordinates, each set
 };

@@ -17,18 +17,20 @@ struct Surface {
 const float PI = 3.14159265;
 
 // L_out = emission + ka Ca La + sum_l [kd Cd max(0, n.l) + ks Cs max(0, r.v)^n] L_l (Phong 1975).
+// The mesh's colour multiplies Ca and Cd. A point without a normal shows emission + kd Cd.
 // energy: kd / pi, and ks (n + 2) / (2 pi) with the extra n.l (Lafortune and Willems 1994).
 vec4 shade(SurfacePoint point, Surface surface) {
     // precise: a mapped constant and a plain one must give the same bits in their two programs.
-    precise vec3 matt = surface.diffuse_weight * surface.diffuse_color;
+    precise vec3 matt = surface.diffuse_weight * surface.diffuse_color * point.color.rgb;
     precise vec3 gloss = surface.specular_weight * surface.specular_color;
+    if (point.normal == vec3(0.0)) return vec4(surface.emission + matt, 1.0);
     float exponent = max(surface.exponent, 0.0);  // a map may go below, the model does not
     if (surface.normalization == 1) {
         matt /= PI;
         gloss *= (exponent + 2.0) / (2.0 * PI);
     }
-    precise vec3 radiance =
-        surface.emission + surface.ambient_weight * surface.ambient_color * ambient_radiance;
+    precise vec3 ambient = surface.ambient_weight * surface.ambient_color * point.color.rgb;
+    precise vec3 radiance = surface.emission + ambient * ambient_radiance;
     for (int i = 0; i < light_count; i++) {
         Light light = light_at(i, point.position);
         float facing = dot(point.normal, light.direction);
@@ -40,4 +42,9 @@ vec4 shade(SurfacePoint point, Surface surface) {
         radiance += reflected * light.irradiance;
     }
     return vec4(radiance, 1.0);
+}
+
+// The share of light that is reflected in all directions.
+vec3 albedo(Surface surface) {
+    return surface.diffuse_weight * surface.diffuse_color;
 }

@@ -1,0 +1,86 @@
+"""What a picture costs by its size and file alone, whatever it shows.
+
+A render is drawn in tiles and written in bands, so its memory has a bound; a texture is held whole.
+The constants were measured as those of `estimate`.
+"""
+
+import math
+from collections.abc import Mapping
+
+from api_schemas.cost import Cost
+from api_schemas.output import SIDE_MAX, Layer, Output, RenderOutput
+
+SAMPLES_PER_TILE = 2048 * 2048
+SAMPLES_PER_LAYERED_TILE = 1024 * 1024
+LAYER_CHANNELS: Mapping[Layer, int] = {
+    "depth": 1,
+    "position": 3,
+    "normal": 3,
+    "geometric_normal": 3,
+    "tangent": 3,
+    "uv": 2,
+    "albedo": 4,
+    "object_id": 1,
+    "material_id": 1,
+    "coverage": 1,
+}
+
+_SECONDS_TO_START = 0.01
+_SECONDS_PER_PNG_PIXEL = {8: 6e-8, 16: 1.4e-7}
+_SECONDS_PER_EXR_PIXEL = {"half": 7e-8, "float": 1.2e-7}
+_SECONDS_PER_LAYER_NUMBER = 5e-8
+_SECONDS_PER_SAMPLE = 4e-8
+_SECONDS_PER_LAYERED_SAMPLE = 1.4e-7
+_SECONDS_PER_LAYERED_PIXEL = 2e-7
+_BYTES_PER_PIXEL = 48
+_BYTES_PER_LAYER_NUMBER = 12
+_BYTES_PER_SAMPLE = 52
+_BYTES_PER_LAYERED_SAMPLE = 240
+
+
+def writing(output: Output) -> Cost:
+    """Return the cost of making a file of pixels that are there."""
+    pixels = output.size[0] * output.size[1]
+    if output.format == "exr":
+        seconds = _SECONDS_PER_EXR_PIXEL[output.exr_type]
+    else:
+        seconds = _SECONDS_PER_PNG_PIXEL[output.png_bits]
+    numbers = 0
+    if isinstance(output, RenderOutput):
+        if output.format == "exr":
+            numbers = sum(LAYER_CHANNELS[layer] for layer in output.layers)
+        held = min(pixels, _samples_per_tile(output))
+    else:
+        held = pixels
+    return Cost(
+        _SECONDS_TO_START + pixels * (seconds + numbers * _SECONDS_PER_LAYER_NUMBER),
+        float(held * (_BYTES_PER_PIXEL + numbers * _BYTES_PER_LAYER_NUMBER)),
+    )
+
+
+def sampling(output: RenderOutput) -> Cost:
+    """Return the cost of a picture's samples where nothing is, and of making pixels of them."""
+    samples = samples_of(output)
+    held = min(samples, _samples_per_tile(output))
+    if not output.layers:
+        return Cost(samples * _SECONDS_PER_SAMPLE, float(held * _BYTES_PER_SAMPLE))
+    pixels = output.size[0] * output.size[1]
+    return Cost(
+        samples * _SECONDS_PER_LAYERED_SAMPLE + pixels * _SECONDS_PER_LAYERED_PIXEL,
+        float(held * _BYTES_PER_LAYERED_SAMPLE),
+    )
+
+
+def samples_of(output: RenderOutput) -> int:
+    """Return how many samples are drawn."""
+    return output.size[0] * output.size[1] * output.supersampling**2
+
+
+def tiles_of(output: RenderOutput) -> int:
+    """Return in about how many tiles they are drawn: each draws every triangle again."""
+    columns, rows = (math.ceil(side * output.supersampling / SIDE_MAX) for side in output.size)
+    return max(columns * rows, math.ceil(samples_of(output) / _samples_per_tile(output)))
+
+
+def _samples_per_tile(output: RenderOutput) -> int:
+    return SAMPLES_PER_LAYERED_TILE if output.layers else SAMPLES_PER_TILE

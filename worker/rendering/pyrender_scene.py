@@ -1,0 +1,178 @@
+"""A scene as pyrender's traversal takes it: what is drawn, where it stands, and in which order."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pyrender
+from numpy.typing import NDArray
+
+from worker.geometry.transforms import Matrix, normal_matrix
+from worker.rendering.draw_order import back_to_front, nearness
+from worker.rendering.gl_context import GL, floats
+from worker.rendering.shading import Shading
+from worker.rendering.vertex_arrays import VertexArray
+
+_RANKS = {"opaque": 0, "mask": 1, "blend": 2}
+
+
+@dataclass(frozen=True, slots=True)
+class View:
+    """The eye.
+
+    Attributes:
+        world_from_camera: Where it stands; a rigid motion.
+        clip_from_camera: Its projection, with reversed depth.
+        orthographic: Whether all views are parallel.
+    """
+
+    world_from_camera: Matrix
+    clip_from_camera: Matrix
+    orthographic: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Drawable:
+    """A mesh in OpenGL, a surface, where they stand, and the number of the surface from 1."""
+
+    mesh: VertexArray
+    shading: Shading
+    world_from_object: Matrix
+    material: int
+
+
+@dataclass(frozen=True, slots=True)
+class Background:
+    """What is seen where nothing is: a linear colour, or a shading over the whole picture."""
+
+    color: tuple[float, ...] | None
+    shading: Shading | None
+
+
+class SurfaceMaterial(pyrender.Material):  # type: ignore[misc]
+    """Carries a shading through pyrender's traversal. Textures are ours to upload and to free."""
+
+    def __init__(self, shading: Shading, number: int) -> None:
+        """Make a material of a shading; `number` is its material id."""
+        super().__init__(doubleSided=shading.double_sided)
+        self.shading = shading
+        self.number = number
+
+    @property
+    def textures(self) -> set[Any]:
+        """Tell pyrender of no textures."""
+        return set()
+
+
+class SurfacePrimitive(pyrender.Primitive):  # type: ignore[misc]
+    """Carries a mesh, its surface and how they are drawn through pyrender's traversal.
+
+    Attributes:
+        mesh: What is drawn.
+        number: Its place among the drawables.
+        mirrored: Whether its transform turns the winding of triangles.
+        hidden: Which sides are left out in each pass: outer, inner, or none (None).
+        elements: Its triangles, lines or points from back to front, where that matters.
+    """
+
+    hidden: tuple[int | None, ...]
+    elements: NDArray[np.uint32] | None
+
+    def __init__(self, drawable: Drawable, number: int, view: View, *, mirrored: bool) -> None:
+        """Take what is drawn; pyrender itself learns of no vertices."""
+        material = SurfaceMaterial(drawable.shading, drawable.material)
+        super().__init__(positions=_NO_VERTICES, material=material)
+        self.mesh = drawable.mesh
+        self.number = number
+        self.mirrored = mirrored
+        self.hidden = (GL.GL_BACK,)
+        self.elements = None
+        blended = drawable.shading.layout.alpha_mode == "blend"
+        both = drawable.shading.double_sided
+        if not blended:
+            # Outer sides first: the depth test then spares the shading of inner ones behind them.
+            if both and self.mesh.has_sides:
+                self.hidden = (GL.GL_BACK, GL.GL_FRONT)
+        elif self.mesh.convex:
+            if both:
+                self.hidden = (GL.GL_FRONT, GL.GL_BACK)
+        else:
+            if both:
+                self.hidden = (None,)
+            towards_eye = drawable.world_from_object[:3, :3].T @ view.world_from_camera[:3, 2]
+            self.elements = back_to_front(self.mesh.positions, self.mesh.elements, towards_eye)
+
+
+class PlacedNode(pyrender.Node):  # type: ignore[misc]
+    """A node with any matrix; pyrender's own would break mirrored, sheared and flat ones up."""
+
+    def __init__(self, matrix: Matrix, **content: Any) -> None:
+        """Place a mesh or a camera."""
+        super().__init__(**content)
+        self._matrix = matrix
+
+
+class MatrixCamera(pyrender.Camera):  # type: ignore[misc]
+    """A camera whose projection is known already."""
+
+    def __init__(self, clip_from_camera: Matrix) -> None:
+        """Take a projection."""
+        super().__init__()
+        self._clip_from_camera = clip_from_camera
+
+    def get_projection_matrix(self, width: int | None = None, height: int | None = None) -> Matrix:
+        """Return the projection, whatever the size of the tile."""
+        return self._clip_from_camera
+
+
+class FlatScene(pyrender.Scene):  # type: ignore[misc]
+    """A scene whose nodes all stand in the world.
+
+    Attributes:
+        background: What is behind everything.
+        world_from_camera: The eye's frame.
+        in_order: Its nodes as they are drawn.
+        world_from_object: (n, 4, 4), by the number of the drawable.
+        eye_from_object: float32 (n, 4, 4), axes of the world and origin at the eye.
+        normal_from_object: float32 (n, 3, 3).
+    """
+
+    def __init__(
+        self, drawables: Sequence[Drawable], view: View, background: Background | None
+    ) -> None:
+        """Put drawables and the eye into a scene of pyrender's."""
+        super().__init__(bg_color=np.zeros(4), ambient_light=np.zeros(3))
+        self.background = background
+        self.world_from_camera = view.world_from_camera
+        camera = MatrixCamera(view.clip_from_camera)
+        self.add_node(PlacedNode(view.world_from_camera, camera=camera))
+        matrices = np.array([drawable.world_from_object for drawable in drawables])
+        matrices = matrices.reshape(-1, 4, 4)
+        eye_from_object = matrices.copy()
+        eye_from_object[:, :3, 3] -= view.world_from_camera[:3, 3]
+        self.world_from_object = matrices
+        self.eye_from_object = floats(eye_from_object)
+        self.normal_from_object = floats(normal_matrix(matrices))
+        nodes = []
+        for number, mirrored in enumerate(np.linalg.det(matrices[:, :3, :3]) < 0):
+            primitive = SurfacePrimitive(drawables[number], number, view, mirrored=bool(mirrored))
+            nodes.append(PlacedNode(matrices[number], mesh=pyrender.Mesh([primitive])))
+            self.add_node(nodes[-1])
+        self.in_order = [nodes[number] for number in _drawing_order(drawables, view)]
+
+    def get_pose(self, node: PlacedNode) -> Matrix:
+        """Return where a node stands, without a search for its parents."""
+        return node.matrix
+
+
+_NO_VERTICES = np.empty((0, 3), dtype=np.float32)
+
+
+def _drawing_order(drawables: Sequence[Drawable], view: View) -> list[int]:
+    """What hides comes first, near to far; then what lets light through, far to near."""
+    middles = [d.world_from_object @ np.append(d.mesh.centre, 1.0) for d in drawables]
+    near = nearness(np.array(middles).reshape(-1, 4)[:, :3], view.world_from_camera)
+    ranks = np.array([_RANKS[d.shading.layout.alpha_mode] for d in drawables], dtype=int)
+    order = np.lexsort((np.where(ranks == _RANKS["blend"], near, -near), ranks))
+    return [int(number) for number in order]

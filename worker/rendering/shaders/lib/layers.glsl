@@ -1,0 +1,34 @@
+#include "lib/fragment.glsl"
+
+// What is known of a thing beside its light; worker/rendering/packing.py has the same table.
+layout(location = 1) out vec4 layer_albedo;            // premultiplied; a = coverage
+layout(location = 2) out vec4 layer_normal;            // a = depth
+layout(location = 3) out vec4 layer_geometric_normal;  // a = object id
+layout(location = 4) out vec4 layer_position;          // a = material id
+layout(location = 5) out vec4 layer_tangent;
+layout(location = 6) out vec4 layer_uv;
+
+uniform vec3 eye_position;  // in the world
+uniform vec3 view_axis;     // where the eye looks
+uniform int object_id;
+uniform int material_id;
+uniform mat3 normal_from_object;
+uniform samplerBuffer face_normals;  // of each triangle, outward, in the object's frame
+uniform bool has_faces;              // lines and points have none
+
+// The flat triangle's, on the eye's side; differences of positions from pixel to pixel would be
+// good to 1e-4 only.
+vec3 geometric_normal(SurfacePoint point) {
+    if (!has_faces) return point.normal;
+    vec3 outward = normalize(normal_from_object * texelFetch(face_normals, gl_PrimitiveID).xyz);
+    return gl_FrontFacing ? outward : -outward;
+}
+
+void write_layers(SurfacePoint point, vec3 albedo, float opacity) {
+    layer_albedo = holdable(vec4(albedo * point.color.rgb * opacity, opacity));
+    layer_normal = holdable(vec4(point.normal, dot(point.position, view_axis)));
+    layer_geometric_normal = holdable(vec4(geometric_normal(point), float(object_id)));
+    layer_position = holdable(vec4(eye_position + point.position, float(material_id)));
+    layer_tangent = holdable(vec4(normalize(point.tangent.xyz), 0.0));
+    layer_uv = holdable(vec4(point.uv[0], 0.0, 0.0));
+}
