@@ -106,7 +106,3 @@ vec4 shade(SurfacePoint point, Surface surface) {
 vec3 albedo(Surface surface) {
     return surface.base_color;
 }
-
-vec3 albedo(Surface surface) {
-    return surface.base_color;
-}
