@@ -1,5 +1,6 @@
 """metallic_roughness against the published formulas, written out in float64 (X17)."""
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -8,6 +9,7 @@ from numpy.typing import NDArray
 
 from tests.worker.rendering.studio import Pixels, Studio
 from tests.worker.rendering.test_vertex_arrays import points_that_face
+from worker.geometry.sphere import sphere
 
 pytestmark = pytest.mark.gl
 
@@ -16,6 +18,32 @@ WHITE_SKY = {"type": "ambient", "radiance": [1.0, 1.0, 1.0]}
 MIRROR = {"technique": "metallic_roughness", "metallic": 1.0, "base_color": [1.0, 1.0, 1.0]}
 # roughness, n.v, A, B
 X17 = [(0.5, 0.5, 0.83492, 0.02235), (0.3, 0.8, 0.98688, 0.0008), (1.0, 1.0, 0.30682, 0.00003)]
+
+
+def polished_things(studio: Studio) -> dict[str, Any]:
+    """A varnished, dented ball, and points and lines of its vertices round it."""
+    ball = sphere(1.0, 24, 12)
+    dents = np.random.default_rng(8).normal([0, 0, 3], 1, (16, 16, 3))
+    surface = {
+        "technique": "metallic_roughness",
+        "base_color": [0.9, 0.5, 0.2],
+        "roughness": 0.4,
+        "clearcoat": 0.5,
+        "energy_compensation": True,
+        "normal": {"texture": studio.texture(dents), "range": "signed"},
+    }
+    edges = ball.triangles[:, :2].copy()
+    wires = replace(ball, positions=1.2 * ball.positions, triangles=edges, kind="lines")
+    pins = replace(ball, positions=1.4 * ball.positions, triangles=edges[:, :1], kind="points")
+    return {
+        "camera": {"type": "perspective", "pose": {"eye": [1.0, 2.0, 3.0]}},
+        "lights": [WHITE_SKY, {"type": "directional", "direction": [-0.4, -1.0, -0.3]}],
+        "nodes": [
+            {"mesh": {"type": "sphere"}, "surface": surface},
+            {"mesh": studio.mesh(wires), "surface": {"technique": "metallic_roughness"}},
+            {"mesh": studio.mesh(pins), "surface": {"technique": "unlit"}},
+        ],
+    }
 
 
 def slanted(studio: Studio, surface: dict[str, Any], cosine: float, lights: Any) -> Floats:
