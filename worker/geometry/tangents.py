@@ -200,7 +200,8 @@ def _across(vectors: Floats, normals: Floats) -> Floats:
 def _unit(vectors: Floats) -> Floats:
     """Divide by the length; what has none stays."""
     length = np.linalg.norm(vectors, axis=-1, keepdims=True)
-    return vectors / np.where(length > _NO_AREA, length, 1.0)
+    unit: Floats = vectors / np.where(length > _NO_AREA, length, 1.0)
+    return unit
 
 
 def _or_perpendicular(vectors: Floats, normals: Floats) -> Floats:
