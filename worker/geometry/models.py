@@ -5,6 +5,7 @@ from typing import Literal
 
 from worker.errors import UnusableAssetError
 from worker.geometry import obj, ply, stl
+from worker.geometry.gltf import outline as gltf_outline
 from worker.geometry.gltf import reader as gltf_reader
 from worker.geometry.model import Model
 from worker.geometry.outline import Outline
@@ -45,8 +46,8 @@ def outline(data: bytes, form: ModelFormat) -> Outline:
             return ply.outline(data)
         case "stl":
             return stl.outline(data)
-        case _:
-            raise UnusableAssetError("glTF is not read yet", code="asset_unsupported")
+        case "glb" | "gltf":
+            return gltf_outline.outline(data)
 
 
 def warm() -> None:

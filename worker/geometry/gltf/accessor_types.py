@@ -1,11 +1,11 @@
 """How the elements of an accessor lie in memory."""
 
 from dataclasses import dataclass
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 
-COMPONENTS: Final = {
+COMPONENTS: Final[dict[int, np.dtype[Any]]] = {
     5120: np.dtype("<i1"),
     5121: np.dtype("<u1"),
     5122: np.dtype("<i2"),
@@ -29,7 +29,7 @@ _SHAPES: Final = {
 class Element:
     """One element: columns of rows of components, each column of a matrix on a multiple of 4."""
 
-    component: np.dtype[np.generic]
+    component: np.dtype[Any]
     columns: int
     rows: int
 

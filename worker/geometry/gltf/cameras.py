@@ -9,14 +9,14 @@ from pydantic import ValidationError
 from api_schemas.base import LENGTH_MAX, LENGTH_MIN
 from api_schemas.camera import OrthographicCamera, PerspectiveCamera, PosedCamera
 from api_schemas.transforms import MatrixPlacement
-from worker.geometry.gltf.document import scene as document
+from worker.geometry.gltf.document import scene as gltf
 from worker.geometry.model import NamedCamera
 
 _WIDEST: Final = 3.1
 
 
 def camera_at(
-    camera: document.Camera, node: document.Node, matrix: NDArray[np.float64]
+    camera: gltf.Camera, node: gltf.Node, matrix: NDArray[np.float64]
 ) -> NamedCamera | str:
     """Place a camera; glTF's looks along its own -z with y up, as ours does.
 
@@ -40,7 +40,7 @@ def camera_at(
     return NamedCamera(camera.name or node.name, posed)
 
 
-def _posed(camera: document.Camera, pose: MatrixPlacement) -> PosedCamera | None:
+def _posed(camera: gltf.Camera, pose: MatrixPlacement) -> PosedCamera | None:
     if camera.type == "perspective" and camera.perspective is not None:
         view = camera.perspective
         if view.yfov > _WIDEST:

@@ -1,14 +1,11 @@
-"""From JSON text to values, with bounds on depth and number before anything is built."""
+"""From JSON text to values, with bounds on length and number before anything is built."""
 
-import re
-from typing import Any, Final
+from typing import Any
 
 from pydantic_core import from_json
 
 from worker.errors import UnusableAssetError
-from worker.geometry.gltf.limits import JSON_BRACKETS_MAX, JSON_COMMAS_MAX, JSON_DEPTH_MAX
-
-_BRACKETS: Final = re.compile(rb'"[^"\\]*+(?:\\.[^"\\]*+)*+"?|[\[{]|[\]}]', re.DOTALL)
+from worker.geometry.gltf.limits import JSON_BRACKETS_MAX, JSON_BYTES_MAX, JSON_COMMAS_MAX
 
 
 def parse(text: memoryview) -> dict[str, Any]:
@@ -16,34 +13,24 @@ def parse(text: memoryview) -> dict[str, Any]:
 
     Raises:
         UnusableAssetError: `asset_unusable` for what is no JSON object in UTF-8 without a byte
-            order mark, or is nested too deep; `asset_too_large` for too many values.
+            order mark, or is nested more than 200 levels deep; `asset_too_large` for too much text
+            or too many values.
     """
+    if len(text) > JSON_BYTES_MAX:
+        raise UnusableAssetError(
+            f"{len(text)} bytes of JSON; at most {JSON_BYTES_MAX} are taken, a GLB holds more",
+            code="asset_too_large",
+        )
     data = bytes(text)
-    # Text that is not in strings has at least so many of these; a data URI has one comma.
-    if (
-        data.count(b"[") + data.count(b"{") > JSON_BRACKETS_MAX
-        or data.count(b",") > JSON_COMMAS_MAX
-    ):
+    # There are no more objects, arrays and values than this, and a data URI has but one comma.
+    brackets, commas = data.count(b"[") + data.count(b"{"), data.count(b",")
+    if brackets > JSON_BRACKETS_MAX or commas > JSON_COMMAS_MAX:
         raise UnusableAssetError("the JSON has too many values", code="asset_too_large")
-    if _depth(data) > JSON_DEPTH_MAX:
-        raise UnusableAssetError(f"the JSON is nested more than {JSON_DEPTH_MAX} levels deep")
     try:
         value = from_json(data, allow_inf_nan=False, cache_strings="none")
     except ValueError as error:
-        # The parser's own words name only kinds of tokens, a line and a column.
+        # The parser's words name kinds of tokens, a line and a column, never the text.
         raise UnusableAssetError(f"the JSON is malformed: {error}") from None
     if not isinstance(value, dict):
         raise UnusableAssetError("the JSON is not an object")
     return value
-
-
-def _depth(data: bytes) -> int:
-    depth = deepest = 0
-    for match in _BRACKETS.finditer(data):
-        character = data[match.start()]
-        if character in b"[{":
-            depth += 1
-            deepest = max(deepest, depth)
-        elif character in b"]}":
-            depth -= 1
-    return deepest

@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 from pydantic import ValidationError
 
 from api_schemas.lights import DirectionalLight, Light, PointLight, SpotLight
-from worker.geometry.gltf.document import scene as document
+from worker.geometry.gltf.document import scene as gltf
 
 
-def light_at(light: document.Light, matrix: NDArray[np.float64]) -> Light | str:
+def light_at(light: gltf.Light, matrix: NDArray[np.float64]) -> Light | str:
     """Place a light, which shines along its own -z.
 
     Args:
@@ -29,7 +29,7 @@ def light_at(light: document.Light, matrix: NDArray[np.float64]) -> Light | str:
     return placed or "a light beyond what can be drawn, or of an unknown type, is left out"
 
 
-def _placed(light: document.Light, matrix: NDArray[np.float64]) -> Light | None:
+def _placed(light: gltf.Light, matrix: NDArray[np.float64]) -> Light | None:
     position = matrix[:3, 3].tolist()
     length = float(np.linalg.norm(matrix[:3, 2]))
     direction = (-matrix[:3, 2] / length).tolist() if length > 0 else [0.0, 0.0, -1.0]

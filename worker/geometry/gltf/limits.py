@@ -1,12 +1,14 @@
-"""How much a glTF file may ask for. Everything is counted before memory is taken for it."""
+"""How much a glTF file may ask for, besides what `model_limits` says of every model.
+
+Everything is counted before memory is taken for it.
+"""
 
 from typing import Final
 
-JSON_BRACKETS_MAX: Final = 1_000_000
-"""Objects and arrays. A parsed one takes some hundred bytes; a large scene has 100 000."""
+JSON_BRACKETS_MAX: Final = 500_000
+"""Objects and arrays. Ten thousand nodes with a mesh each have half of it."""
 JSON_COMMAS_MAX: Final = 4_000_000
-JSON_DEPTH_MAX: Final = 64
-"""The deepest value that glTF defines lies nine levels down; the rest is room for extras."""
+JSON_BYTES_MAX: Final = 160 * 2**20
 
 DATA_URI_BYTES_MAX: Final = 128 * 2**20
 """Base64 text of all data URIs together. Larger things travel in a GLB, a quarter shorter."""
@@ -15,15 +17,12 @@ PICTURE_BYTES_MAX: Final = 256 * 2**20
 """Bytes of all pictures together, as files."""
 
 NODES_MAX: Final = 10_000
+ITEMS_MAX: Final = 50_000
+"""Of any other list of the document: five for each node."""
 PARTS_MAX: Final = 10_000
-VERTICES_MAX: Final = 4_000_000
-TRIANGLES_MAX: Final = 8_000_000
-"""Triangles, lines and points drawn together, a mesh that stands in two places counted twice."""
 ELEMENTS_MAX: Final = 32_000_000
 """Elements of one accessor: what fits an upload of the usual limit and more."""
 MORPHED_VERTICES_MAX: Final = 64_000_000
 """Vertices times the targets that move them."""
 JOINT_SETS_MAX: Final = 4
-FARTHEST: Final = 1e9
-"""Largest coordinate in the model's frame; float32 squares of it are still numbers."""
 WARNINGS_MAX: Final = 64

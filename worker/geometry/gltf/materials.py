@@ -4,7 +4,7 @@ from typing import Any, Final, Literal
 
 from pydantic import ValidationError
 
-from api_schemas import language
+import api_schemas.language  # noqa: F401 - it completes the models of surfaces
 from api_schemas.families import SurfaceSpec
 from api_schemas.surfaces.metallic_roughness import MetallicRoughnessSpec
 from api_schemas.surfaces.unlit import UnlitSpec
@@ -15,9 +15,6 @@ from worker.geometry.gltf.textures import Textures
 AlphaMode = Literal["opaque", "mask", "blend"]
 _ALPHA_MODES: Final[dict[str, AlphaMode]] = {"OPAQUE": "opaque", "MASK": "mask", "BLEND": "blend"}
 _IOR_MAX: Final = 100.0
-
-# The families complete their models when they meet.
-assert language.Surface
 
 
 def surface_of(material: Material, textures: Textures, place: str) -> SurfaceSpec:

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from api_schemas.lights import LIGHTS_MAX, Light
-from worker.geometry.gltf import resources
 from worker.geometry.gltf.accessors import Accessors
 from worker.geometry.gltf.budget import Budget
 from worker.geometry.gltf.cameras import camera_at
@@ -17,7 +16,7 @@ from worker.geometry.gltf.extensions import check_extensions
 from worker.geometry.gltf.faults import unusable
 from worker.geometry.gltf.json_text import parse
 from worker.geometry.gltf.lights import light_at
-from worker.geometry.gltf.limits import FARTHEST, WARNINGS_MAX
+from worker.geometry.gltf.limits import WARNINGS_MAX
 from worker.geometry.gltf.materials import surface_of
 from worker.geometry.gltf.mesh_checks import check_meshes
 from worker.geometry.gltf.references import check_references
@@ -29,6 +28,7 @@ from worker.geometry.gltf.textures import Textures
 from worker.geometry.gltf.tree import Tree, check_nodes, grow, shown_nodes
 from worker.geometry.mesh import Mesh
 from worker.geometry.model import Model, NamedCamera, NamedSurface, Part
+from worker.geometry.model_limits import FARTHEST
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,10 +54,14 @@ def read(data: bytes, files: Mapping[str, bytes], scene: int | None = None) -> M
         UnusableAssetError: `asset_unusable`, `asset_unsupported` or `asset_too_large`, with the
             place in the document.
     """
-    checked = check(data)
+    return complete(check(data), files, scene)
+
+
+def complete(checked: Checked, files: Mapping[str, bytes], scene: int | None = None) -> Model:
+    """Read the data of a file whose JSON has been checked; see `read`."""
     document = checked.document
     shown = shown_nodes(document, checked.tree, scene)
-    poses = _poses(document, shown)
+    poses = resting_poses(document, shown)
     found = Resources.find(document, checked.container.binary, files)
     warnings = [*checked.warnings, *found.warnings]
     accessors = Accessors(document, found.buffers)
@@ -69,7 +73,7 @@ def read(data: bytes, files: Mapping[str, bytes], scene: int | None = None) -> M
     parts = _parts(checked, accessors, shown, poses, warnings)
     if any(part.material == len(surfaces) for part in parts):
         surfaces.append(NamedSurface("", surface_of(Material(), textures, "/materials")))
-    cameras, lights = _views(checked, shown, warnings)
+    cameras, lights = views(checked, shown, warnings)
     return Model(
         parts=tuple(parts),
         node_names=tuple(node.name for node in document.nodes),
@@ -79,15 +83,6 @@ def read(data: bytes, files: Mapping[str, bytes], scene: int | None = None) -> M
         pictures={p.sha256: p.content for p in found.pictures if p is not None},
         warnings=tuple(dict.fromkeys(warnings))[:WARNINGS_MAX],
     )
-
-
-def needed_files(data: bytes) -> tuple[str, ...]:
-    """Return the names of the files that must lie beside a GLB or .gltf, each once.
-
-    Raises:
-        UnusableAssetError: As `read`, as far as that can be told without those files.
-    """
-    return resources.needed_files(check(data).document)
 
 
 def check(data: bytes) -> Checked:
@@ -110,7 +105,7 @@ def check(data: bytes) -> Checked:
     return Checked(container, document, tree, (*container.warnings, *warnings))
 
 
-def _poses(document: Document, shown: list[int]) -> dict[int, tuple[float, ...]]:
+def resting_poses(document: Document, shown: list[int]) -> dict[int, tuple[float, ...]]:
     """Return the morph weights at each node with a mesh, after counting what they will cost."""
     budget = Budget(document)
     poses: dict[int, tuple[float, ...]] = {}
@@ -170,13 +165,16 @@ def _parts(
 
 def _check_reach(mesh: Mesh, matrix: np.ndarray, place: str) -> None:
     reach = np.abs(mesh.positions).max(axis=0)
+    if any((np.abs(uv) > FARTHEST).any() for uv in mesh.uv_sets):
+        raise unusable(place, f"its mesh has texture coordinates beyond {FARTHEST:g}")
     if not (np.abs(matrix[:3, :3]) @ reach + np.abs(matrix[:3, 3]) <= FARTHEST).all():
         raise unusable(place, f"its mesh reaches beyond {FARTHEST:g}")
 
 
-def _views(
+def views(
     checked: Checked, shown: list[int], warnings: list[str]
 ) -> tuple[list[NamedCamera], list[Light]]:
+    """Place the cameras and lights of the nodes that are shown."""
     document = checked.document
     brought = document.extensions.lights.lights if document.extensions.lights else []
     cameras: list[NamedCamera] = []

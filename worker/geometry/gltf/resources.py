@@ -46,14 +46,14 @@ class Resources:
 
     @classmethod
     def find(
-        cls, document: Document, binary: memoryview | None, files: Mapping[str, bytes]
+        cls, document: Document, binary: memoryview | None, files: Mapping[str, bytes] | None
     ) -> "Resources":
         """Find buffers and pictures.
 
         Args:
             document: With references that exist.
             binary: The binary chunk, which is the first buffer if that has no URI.
-            files: What lies beside the asset.
+            files: What lies beside the asset; None leaves out what should lie there.
 
         Raises:
             AssetMissingError: `asset_file_missing`.
@@ -69,8 +69,11 @@ class Resources:
         warnings = []
         for index, image in enumerate(document.images):
             place = f"/images/{index}"
+            if files is None and _lies_beside(document, image):
+                pictures.append(None)
+                continue
             if _source(image) not in shelf.by_source:
-                shelf.put(image, _image(document, buffers, image, files, place), place)
+                shelf.put(image, _image(document, buffers, image, files or {}, place), place)
             kind, picture = shelf.by_source[_source(image)]
             if picture is None:
                 warnings.append(f"{place}: a picture of kind {kind} is not drawn")
@@ -122,9 +125,19 @@ def needed_files(document: Document) -> tuple[str, ...]:
     return tuple(dict.fromkeys(names))
 
 
+def _is_name(uri: str | None) -> bool:
+    return uri is not None and not is_data(uri)
+
+
+def _lies_beside(document: Document, image: Image) -> bool:
+    if image.buffer_view is None:
+        return _is_name(image.uri)
+    return _is_name(document.buffers[document.buffer_views[image.buffer_view].buffer].uri)
+
+
 def _check_data_uris(document: Document) -> None:
-    uris = [item.uri for item in (*document.buffers, *document.images) if item.uri is not None]
-    total = sum(len(uri) for uri in uris if is_data(uri))
+    uris = [item.uri for item in document.buffers] + [item.uri for item in document.images]
+    total = sum(len(uri) for uri in uris if uri is not None and is_data(uri))
     if total > DATA_URI_BYTES_MAX:
         raise too_large(
             "/buffers",
@@ -133,11 +146,13 @@ def _check_data_uris(document: Document) -> None:
 
 
 def _buffer(
-    document: Document, index: int, binary: memoryview | None, files: Mapping[str, bytes]
+    document: Document, index: int, binary: memoryview | None, files: Mapping[str, bytes] | None
 ) -> memoryview | None:
     buffer, place = document.buffers[index], f"/buffers/{index}"
+    if files is None and _is_name(buffer.uri):
+        return None
     if buffer.uri is not None:
-        content = memoryview(fetch(buffer.uri, files, f"{place}/uri").content)
+        content = memoryview(fetch(buffer.uri, files or {}, f"{place}/uri").content)
     elif index == 0 and binary is not None:
         content = binary
     else:

@@ -7,7 +7,7 @@ from typing import Any, Final, Literal
 from api_schemas.coordinates.uv import UvSpec
 from api_schemas.maps import ColorMap, Filter, NormalMap, NumberMap, TextureTransform, Wrap
 from api_schemas.textures.image import ImageSpec
-from worker.geometry.gltf.document import pictures as document
+from worker.geometry.gltf.document import pictures as gltf
 from worker.geometry.gltf.document.root import Document
 from worker.geometry.gltf.resources import Picture
 
@@ -30,13 +30,13 @@ class Textures:
     pictures: tuple[Picture | None, ...]
     warnings: list[str] = field(default_factory=list)
 
-    def has_alpha(self, info: document.TextureInfo | None) -> bool:
+    def has_alpha(self, info: gltf.TextureInfo | None) -> bool:
         """Whether a picture is there and brings an alpha channel."""
         picture = self._picture(info)
         return picture is not None and picture.header.has_alpha
 
     def color(
-        self, info: document.TextureInfo | None, tint: list[float], scale: float = 1.0
+        self, info: gltf.TextureInfo | None, tint: list[float], scale: float = 1.0
     ) -> ColorMap | list[float]:
         """Map a colour: sRGB texels without their alpha, times tint and scale."""
         picture = self._picture(info)
@@ -47,7 +47,7 @@ class Textures:
 
     def number(
         self,
-        info: document.TextureInfo | None,
+        info: gltf.TextureInfo | None,
         channel: Channel,
         scale: float,
         bias: float = 0.0,
@@ -61,7 +61,7 @@ class Textures:
             texture=image, channel=channel, scale=scale, bias=bias, **self._shared(info)
         )
 
-    def normal(self, info: document.NormalTextureInfo | None) -> NormalMap | None:
+    def normal(self, info: gltf.NormalTextureInfo | None) -> NormalMap | None:
         """Map the normal; the green of glTF's maps points up in the picture."""
         picture = self._picture(info)
         if info is None or picture is None:
@@ -69,7 +69,7 @@ class Textures:
         image = _image(picture, "linear")
         return NormalMap(texture=image, strength=info.scale, green="up", **self._shared(info))
 
-    def _picture(self, info: document.TextureInfo | None) -> Picture | None:
+    def _picture(self, info: gltf.TextureInfo | None) -> Picture | None:
         if info is None:
             return None
         source = self.document.textures[info.index].source
@@ -78,9 +78,9 @@ class Textures:
             return None
         return self.pictures[source]
 
-    def _shared(self, info: document.TextureInfo) -> dict[str, Any]:
+    def _shared(self, info: gltf.TextureInfo) -> dict[str, Any]:
         number = self.document.textures[info.index].sampler
-        sampler = document.Sampler() if number is None else self.document.samplers[number]
+        sampler = gltf.Sampler() if number is None else self.document.samplers[number]
         return {
             "coordinates": UvSpec(technique="uv", set=info.uv_set),
             "transform": _transform(info.extensions.transform),
@@ -93,7 +93,7 @@ class Textures:
             self.warnings.append("an unknown wrapping mode is taken as repeat")
         return _WRAPS.get(code, "repeat")
 
-    def _filter(self, sampler: document.Sampler) -> Filter:
+    def _filter(self, sampler: gltf.Sampler) -> Filter:
         """Follow the sampler where it asks for hard texels or no levels; else do the best."""
         for code in (sampler.mag_filter, sampler.min_filter):
             if code is not None and code not in _FILTERS:
@@ -111,7 +111,7 @@ def _image(
     return ImageSpec(technique="image", asset=picture.sha256, encoding=encoding, alpha=alpha)
 
 
-def _transform(transform: document.TextureTransform | None) -> TextureTransform:
+def _transform(transform: gltf.TextureTransform | None) -> TextureTransform:
     """Write KHR_texture_transform for coordinates whose v runs up.
 
     With x = (u, v) running down, glTF means x' = o + R S x, R = [[c, s], [-s, c]] for a turn that

@@ -70,4 +70,4 @@ def assemble(mode: int, indices: NDArray[np.int64]) -> NDArray[np.int64]:
 
 def _whole(triangles: NDArray[np.int64]) -> NDArray[np.int64]:
     a, b, c = triangles.T
-    return triangles[(a != b) & (b != c) & (c != a)]
+    return np.asarray(triangles[(a != b) & (b != c) & (c != a)])

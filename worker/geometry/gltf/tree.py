@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 from worker.errors import UnusableAssetError
 from worker.geometry.gltf.document.root import Document
 from worker.geometry.gltf.document.scene import Node
-from worker.geometry.gltf.faults import too_large, unusable
-from worker.geometry.gltf.limits import FARTHEST, NODES_MAX
+from worker.geometry.gltf.faults import unusable
 from worker.geometry.gltf.semantics import sets_of
+from worker.geometry.model_limits import FARTHEST
 
 _SHEAR_TOLERANCE = 1e-3
 _ROW_TOLERANCE = 1e-5
@@ -33,10 +33,8 @@ def check_nodes(document: Document) -> None:
     """Check what each node says of itself and of its mesh and skin.
 
     Raises:
-        UnusableAssetError: `asset_unusable`, or `asset_too_large` for too many nodes.
+        UnusableAssetError: `asset_unusable`.
     """
-    if len(document.nodes) > NODES_MAX:
-        raise too_large("/nodes", f"{len(document.nodes)} nodes; at most {NODES_MAX} are taken")
     for index, node in enumerate(document.nodes):
         place = f"/nodes/{index}"
         if node.matrix is not None:

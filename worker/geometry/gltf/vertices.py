@@ -100,22 +100,19 @@ def morphed(
             moved = weight * accessors.numbers(index, rows)
             sums[name] = sums[name] + moved if name in sums else moved
 
-    def plus(name: str, values: Floats | None) -> Floats | None:
-        if values is None or name not in sums:
+    def plus(name: str, values: Floats) -> Floats:
+        if name not in sums:
             return values
         result = values.copy()
         result[:, : sums[name].shape[1]] += sums[name]
         return result
 
-    positions = plus("POSITION", vertices.positions)
+    normals, tangents, colors = vertices.normals, vertices.tangents, vertices.colors
     return replace(
         vertices,
-        positions=vertices.positions if positions is None else positions,
-        normals=plus("NORMAL", vertices.normals),
-        tangents=plus("TANGENT", vertices.tangents),
-        uv_sets=tuple(
-            uv if (moved := plus(f"TEXCOORD_{n}", uv)) is None else moved
-            for n, uv in enumerate(vertices.uv_sets)
-        ),
-        colors=plus("COLOR_0", vertices.colors),
+        positions=plus("POSITION", vertices.positions),
+        normals=None if normals is None else plus("NORMAL", normals),
+        tangents=None if tangents is None else plus("TANGENT", tangents),
+        uv_sets=tuple(plus(f"TEXCOORD_{n}", uv) for n, uv in enumerate(vertices.uv_sets)),
+        colors=None if colors is None else plus("COLOR_0", colors),
     )

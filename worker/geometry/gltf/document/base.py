@@ -30,7 +30,7 @@ class GltfObject(BaseModel):
     @model_validator(mode="before")
     @classmethod
     def _without_nulls(cls, value: Any) -> Any:
-        if isinstance(value, dict):
+        if isinstance(value, dict) and None in value.values():
             for key in cls._keys:
                 if value.get(key, 0) is None:
                     raise ValueError(f"{key} is null")
@@ -62,7 +62,10 @@ Indices = Annotated[list[Index], Field(min_length=1), AfterValidator(_unlike)]
 Words = Annotated[list[str], Field(min_length=1), AfterValidator(_unlike)]
 
 
-class Named(GltfObject):
-    """An object with a name for people, empty if it has none."""
+NAME_LENGTH_MAX = 256
 
-    name: str = ""
+
+class Named(GltfObject):
+    """An object with a name for people, empty if it has none; more than 256 letters are cut."""
+
+    name: Annotated[str, AfterValidator(lambda name: name[:NAME_LENGTH_MAX])] = ""

@@ -22,7 +22,7 @@ from worker.geometry.gltf.document.pictures import (
 class MetallicRoughness(GltfObject):
     """The core model's parameters."""
 
-    base_color_factor: Fractions4 = [1.0, 1.0, 1.0, 1.0]
+    base_color_factor: Fractions4 = Field(default=[1.0, 1.0, 1.0, 1.0])
     base_color_texture: TextureInfo | None = None
     metallic_factor: Fraction = 1.0
     roughness_factor: Fraction = 1.0
@@ -52,11 +52,9 @@ class Specular(GltfObject):
 
     specular_factor: Fraction = 1.0
     specular_texture: TextureInfo | None = None
-    specular_color_factor: Annotated[list[NonNegativeReal], Field(min_length=3, max_length=3)] = [
-        1.0,
-        1.0,
-        1.0,
-    ]
+    specular_color_factor: Annotated[list[NonNegativeReal], Field(min_length=3, max_length=3)] = (
+        Field(default=[1.0, 1.0, 1.0])
+    )
     specular_color_texture: TextureInfo | None = None
 
 
@@ -93,7 +91,7 @@ class Material(Named):
     normal_texture: NormalTextureInfo | None = None
     occlusion_texture: OcclusionTextureInfo | None = None
     emissive_texture: TextureInfo | None = None
-    emissive_factor: Fractions3 = [0.0, 0.0, 0.0]
+    emissive_factor: Fractions3 = Field(default=[0.0, 0.0, 0.0])
     alpha_mode: str = "OPAQUE"
     alpha_cutoff: NonNegativeReal = 0.5
     double_sided: bool = False

@@ -50,9 +50,9 @@ class Texture(Named):
 class TextureTransform(GltfObject):
     """KHR_texture_transform."""
 
-    offset: Reals2 = [0.0, 0.0]
+    offset: Reals2 = Field(default=[0.0, 0.0])
     rotation: Real = 0.0
-    scale: Reals2 = [1.0, 1.0]
+    scale: Reals2 = Field(default=[1.0, 1.0])
     tex_coord: Index | None = None
 
 

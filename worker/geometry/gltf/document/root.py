@@ -4,6 +4,7 @@ import re
 from typing import Annotated, Any, Self
 
 from pydantic import Field, ValidationError, model_validator
+from pydantic.alias_generators import to_camel
 
 from worker.errors import UnusableAssetError
 from worker.geometry.gltf.document.base import GltfObject, Index, Words
@@ -12,7 +13,8 @@ from worker.geometry.gltf.document.materials import Material
 from worker.geometry.gltf.document.meshes import Mesh, Skin
 from worker.geometry.gltf.document.pictures import Image, Sampler, Texture
 from worker.geometry.gltf.document.scene import Camera, Lights, Node, Scene
-from worker.geometry.gltf.faults import spoken, unusable
+from worker.geometry.gltf.faults import spoken, too_large, unusable
+from worker.geometry.gltf.limits import ITEMS_MAX, NODES_MAX
 
 _VERSION = re.compile(r"([0-9]{1,6})\.([0-9]{1,6})")
 
@@ -47,22 +49,22 @@ class Document(GltfObject):
     """All of a glTF file's JSON that matters to a picture at rest."""
 
     asset: Asset
-    extensions_used: Words = []
-    extensions_required: Words = []
-    accessors: Annotated[list[Accessor], Field(min_length=1)] = []
-    animations: Annotated[list[dict[str, Any]], Field(min_length=1)] = []
-    buffers: Annotated[list[Buffer], Field(min_length=1)] = []
-    buffer_views: Annotated[list[BufferView], Field(min_length=1)] = []
-    cameras: Annotated[list[Camera], Field(min_length=1)] = []
-    images: Annotated[list[Image], Field(min_length=1)] = []
-    materials: Annotated[list[Material], Field(min_length=1)] = []
-    meshes: Annotated[list[Mesh], Field(min_length=1)] = []
-    nodes: Annotated[list[Node], Field(min_length=1)] = []
-    samplers: Annotated[list[Sampler], Field(min_length=1)] = []
+    extensions_used: Words = Field(default=[])
+    extensions_required: Words = Field(default=[])
+    accessors: list[Accessor] = Field(default=[], min_length=1)
+    animations: list[dict[str, Any]] = Field(default=[], min_length=1)
+    buffers: list[Buffer] = Field(default=[], min_length=1)
+    buffer_views: list[BufferView] = Field(default=[], min_length=1)
+    cameras: list[Camera] = Field(default=[], min_length=1)
+    images: list[Image] = Field(default=[], min_length=1)
+    materials: list[Material] = Field(default=[], min_length=1)
+    meshes: list[Mesh] = Field(default=[], min_length=1)
+    nodes: list[Node] = Field(default=[], min_length=1)
+    samplers: list[Sampler] = Field(default=[], min_length=1)
     scene: Index | None = None
-    scenes: Annotated[list[Scene], Field(min_length=1)] = []
-    skins: Annotated[list[Skin], Field(min_length=1)] = []
-    textures: Annotated[list[Texture], Field(min_length=1)] = []
+    scenes: list[Scene] = Field(default=[], min_length=1)
+    skins: list[Skin] = Field(default=[], min_length=1)
+    textures: list[Texture] = Field(default=[], min_length=1)
     extensions: DocumentExtensions = DocumentExtensions()
 
     @model_validator(mode="after")
@@ -76,8 +78,14 @@ def read_document(value: dict[str, Any]) -> Document:
     """Validate a document's types, ranges and shapes.
 
     Raises:
-        UnusableAssetError: `asset_unusable`, with the place of the first mistake.
+        UnusableAssetError: `asset_unusable`, with the place of the first mistake; `asset_too_large`
+            for too many things of one kind.
     """
+    for name in Document.model_fields:
+        items = value.get(to_camel(name))
+        most = NODES_MAX if name == "nodes" else ITEMS_MAX
+        if isinstance(items, list) and len(items) > most:
+            raise too_large(f"/{to_camel(name)}", f"{len(items)} items; at most {most} are taken")
     try:
         return Document.model_validate(value)
     except ValidationError as error:

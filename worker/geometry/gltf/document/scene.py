@@ -91,7 +91,7 @@ class Light(Named):
     """A light of KHR_lights_punctual; the node says where it stands."""
 
     type: str
-    color: Fractions3 = [1.0, 1.0, 1.0]
+    color: Fractions3 = Field(default=[1.0, 1.0, 1.0])
     intensity: NonNegativeReal = 1.0
     range: Positive | None = None
     spot: Spot | None = None
