@@ -166,11 +166,10 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         Our programs have matrices of their own.
         """
         assert self._frame is not None
-        if scene.background is not None:
-            if scene.background.shading is None:
-                GL.glClearBufferfv(GL.GL_COLOR, 0, floats([*scene.background.color, 1.0]))
-            else:
-                self._draw_background(scene.background.shading)
+        if isinstance(scene.background, Shading):
+            self._draw_background(scene.background)
+        elif scene.background is not None:
+            GL.glClearBufferfv(GL.GL_COLOR, 0, floats([*scene.background, 1.0]))
         return None, None
 
     def _sorted_mesh_nodes(self, scene: FlatScene) -> list[PlacedNode]:

@@ -16,6 +16,7 @@ from worker.geometry import primitives
 from worker.geometry.mesh import Mesh
 from worker.geometry.plane import plane
 from worker.images import image_io
+from worker.images.image import Image
 
 pytestmark = pytest.mark.gl
 
@@ -273,29 +274,61 @@ def test_vertex_colours_let_light_through_too(studio: Studio) -> None:
     np.testing.assert_allclose(drawn[2, 2], [0.25, 0.125, 0.0625, 0.25], rtol=1e-6)
 
 
+def glass_scene(studio: Studio) -> dict[str, Any]:
+    """Everything of this module before a picture."""
+    leaves = studio.texture(np.random.default_rng(3).random((8, 8)))
+    ring = {"type": "torus"}
+    return {
+        "camera": CAMERA,
+        "background": {"texture": studio.texture(np.random.default_rng(2).random((9, 9, 3)))},
+        "nodes": [
+            poster(0.0, {"technique": "unlit", "color": BLUE}, scale=[0.4, 0.4, 1.0]),
+            poster(-1.0, glass(GREEN, {"texture": leaves}, alpha_mode="mask"), scale=[0.9, 0.9, 1]),
+            poster(1.0, glass(RED), rotation=[0.3, 0.2, 0.1, 1.0]),
+            poster(0.5, glass(GREEN, 0.3), rotation=[-0.3, 0.1, 0.5, 1.0]),
+            {
+                "mesh": ring,
+                "transform": {"scale": [0.5, 0.5, 0.5]},
+                "surface": glass([1.0, 1.0, 1.0], 0.2),
+            },
+        ],
+    }
+
+
 def test_blended_pictures_in_tiles_are_the_picture(
     studio: Studio, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from worker.rendering import renderer  # noqa: PLC0415  needs OpenGL
 
-    nodes = [
-        poster(0.0, {"technique": "unlit", "color": BLUE}, scale=[0.4, 0.4, 1.0]),
-        poster(1.0, glass(RED), rotation=[0.3, 0.2, 0.1, 1.0]),
-        poster(0.5, glass(GREEN, 0.3), rotation=[-0.3, 0.1, 0.5, 1.0]),
-        {
-            "mesh": {"type": "torus"},
-            "transform": {"scale": [0.5, 0.5, 0.5]},
-            "surface": glass([1.0, 1.0, 1.0], 0.2),
-        },
-    ]
-    whole = studio.draw({"camera": CAMERA, "nodes": nodes}, (90, 70), 2)
+    whole = studio.draw(glass_scene(studio), (90, 70), 2)
     monkeypatch.setattr(renderer, "SAMPLES_MAX", 90 * 4 * 8)
 
-    cut = studio.draw({"camera": CAMERA, "nodes": nodes}, (90, 70), 2)
+    cut = studio.draw(glass_scene(studio), (90, 70), 2)
 
     error = np.abs(cut - whole).max(axis=2)
     assert np.median(error) < 1e-6
     assert (error > 1e-3).mean() < 0.01  # samples on an edge, as in an opaque picture
+
+
+@pytest.mark.parametrize("bits", [8, 16])
+def test_a_png_has_straight_alpha_and_an_exr_premultiplied(
+    studio: Studio, tmp_path: Path, bits: Any
+) -> None:
+    nodes = [poster(0.0, glass([1.0, 0.5, 0.0], 0.5)), poster(1.0, glass([0.0, 0.5, 1.0], 0.5))]
+    drawn = Image(studio.draw({"camera": CAMERA, "nodes": nodes}, (4, 4)), "colour")
+    png, exr = tmp_path / "p.png", tmp_path / "p.exr"
+
+    image_io.encode_png(drawn, png, bits=bits, transfer="linear")
+    image_io.encode_exr({"": drawn}, exr, pixel_type="float", digest="", version="")
+
+    # Over each other: (1, .5, 0) / 4 + (0, .5, 1) / 2, with 3/4 of coverage.
+    light = np.array([0.25, 0.375, 0.5])
+    stored = image_io.read(png, "linear", "data").pixels
+    straight = [*(light / 0.75), 0.75]
+    np.testing.assert_allclose(stored[2, 2], straight, atol=0.5 / (2**bits - 1) + 1e-6)
+    np.testing.assert_allclose(
+        image_io.read(exr, "linear", "data").pixels[2, 2], [*light, 0.75], rtol=1e-6
+    )
 
 
 @pytest.mark.golden
