@@ -132,7 +132,7 @@ class FlatScene(pyrender.Scene):  # type: ignore[misc]
 
     Attributes:
         background: What is behind everything.
-        world_from_camera: The eye's frame.
+        view: The eye.
         in_order: Its nodes as they are drawn.
         world_from_object: (n, 4, 4), by the number of the drawable.
         eye_from_object: float32 (n, 4, 4), axes of the world and origin at the eye.
@@ -145,7 +145,7 @@ class FlatScene(pyrender.Scene):  # type: ignore[misc]
         """Put drawables and the eye into a scene of pyrender's."""
         super().__init__(bg_color=np.zeros(4), ambient_light=np.zeros(3))
         self.background = background
-        self.world_from_camera = view.world_from_camera
+        self.view = view
         camera = MatrixCamera(view.clip_from_camera)
         self.add_node(PlacedNode(view.world_from_camera, camera=camera))
         matrices = np.array([drawable.world_from_object for drawable in drawables])

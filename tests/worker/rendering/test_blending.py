@@ -95,6 +95,17 @@ def test_what_is_nearer_along_the_view_is_in_front_though_its_middle_is_far_asid
     np.testing.assert_allclose(drawn[16, 16], [0.5, 0.0, 0.25, 0.75], rtol=1e-6)
 
 
+def test_of_equally_near_panes_the_later_one_is_in_front(studio: Studio) -> None:
+    red, blue = poster(0.0, glass(RED)), poster(0.0, glass(BLUE))
+
+    drawn = [
+        studio.draw({"camera": CAMERA, "nodes": n})[16, 16] for n in ([red, blue], [blue, red])
+    ]
+
+    np.testing.assert_allclose(drawn[0], [0.25, 0.0, 0.5, 0.75], rtol=1e-6)
+    np.testing.assert_allclose(drawn[1], [0.5, 0.0, 0.25, 0.75], rtol=1e-6)
+
+
 def test_highlights_and_emission_are_dimmed_with_the_rest(studio: Studio) -> None:
     surface = {"technique": "phong", "emission": [2.0, 2.0, 2.0], "specular_weight": 1.0}
     lights = [{"type": "directional", "direction": [0.0, 0.0, -1.0]}]
