@@ -85,6 +85,17 @@ def test_what_is_behind_something_opaque_is_hidden_and_hides_nothing_itself(stud
     np.testing.assert_allclose(drawn[16, 16], [1.0, 0.5, 0.5, 1.0], rtol=1e-6)
 
 
+def test_a_pane_that_cuts_something_opaque_covers_the_part_behind_it(studio: Studio) -> None:
+    # Its middle is nearer than the pane's, but its right half leans back beyond the pane.
+    eighth = [0.0, 0.38268343, 0.0, 0.92387953]
+    slope = poster(0.1, {"technique": "unlit", "color": BLUE}, rotation=eighth)
+
+    drawn = studio.draw({"camera": CAMERA, "nodes": [slope, poster(0.0, glass(RED))]})
+
+    np.testing.assert_allclose(drawn[16, 8], [0.0, 0.0, 1.0, 1.0], rtol=1e-6)
+    np.testing.assert_allclose(drawn[16, 24], [0.5, 0.0, 0.5, 1.0], rtol=1e-6)
+
+
 def test_what_is_nearer_along_the_view_is_in_front_though_its_middle_is_far_aside(
     studio: Studio,
 ) -> None:
