@@ -2,7 +2,8 @@
 
 from typing import Annotated, Any
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field
+from pydantic_core import PydanticCustomError
 
 FLOAT32_MAX = 3.4028234663852886e38
 LENGTH_MAX = 1e6
@@ -25,6 +26,12 @@ def _whole(value: Any) -> Any:
     return int(value) if isinstance(value, float) and value.is_integer() else value
 
 
+def _different(items: list[Any]) -> list[Any]:
+    if len(set(items)) < len(items):
+        raise PydanticCustomError("repeated", "an item is there twice")
+    return items
+
+
 Number = Annotated[float, Field(ge=-FLOAT32_MAX, le=FLOAT32_MAX)]
 NonNegative = Annotated[float, Field(ge=0, le=FLOAT32_MAX)]
 Length = Annotated[float, Field(ge=LENGTH_MIN, le=LENGTH_MAX)]
@@ -32,6 +39,8 @@ Coordinate = Annotated[float, Field(ge=-LENGTH_MAX, le=LENGTH_MAX)]
 Angle = Annotated[float, Field(ge=-1000, le=1000)]
 WHOLE = BeforeValidator(_whole)
 """Goes last in the annotation of an integer field, after its bounds."""
+UNIQUE_ITEMS = AfterValidator(_different)
+"""Goes last in the annotation of a list that says `uniqueItems` in its schema."""
 Seed = Annotated[int, Field(ge=0, le=2**32 - 1), WHOLE]
 
 Pair = Annotated[list[Coordinate], Field(min_length=2, max_length=2)]

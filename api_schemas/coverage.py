@@ -1,8 +1,16 @@
 """How much of a picture a mesh covers at most, told from the ball round it."""
 
 import math
+from collections.abc import Iterable
 
-from api_schemas.camera import Camera, OrthographicCamera, PosedCamera
+from api_schemas.camera import (
+    Camera,
+    FramedCamera,
+    LookAt,
+    OrthographicCamera,
+    PerspectiveCamera,
+    PosedCamera,
+)
 from api_schemas.geometry import Affine, Vector3, affine, dot, length, triple
 from api_schemas.transforms import MatrixPlacement
 
@@ -13,7 +21,7 @@ def coverage(reach: float, placed: Affine | None, camera: Camera | None, aspect:
     Args:
         reach: Radius of a ball round the mesh's origin that holds the mesh.
         placed: Where the mesh stands; without a place it covers everything.
-        camera: The eye; one that is placed by what it sees may see nothing else.
+        camera: The eye; one that is not known may see nothing else.
         aspect: Width over height of the picture.
     """
     if not isinstance(camera, PosedCamera):
@@ -22,7 +30,7 @@ def coverage(reach: float, placed: Affine | None, camera: Camera | None, aspect:
     if placed is None or view is None:
         return 1.0
     eye, forward = view
-    radius = reach * max(length(placed.x), length(placed.y), length(placed.z))
+    radius = _radius(reach, placed)
     if isinstance(camera, OrthographicCamera):
         share = radius / camera.height
         return min(1.0, math.pi * share * share / aspect)
@@ -36,6 +44,45 @@ def coverage(reach: float, placed: Affine | None, camera: Camera | None, aspect:
     slant = length(way) / depth  # what stands aside is drawn longer
     picture = 4 * math.tan(camera.fov_y / 2) ** 2 * aspect
     return min(1.0, math.pi * outline * outline * slant / picture)
+
+
+def stand_in(
+    camera: FramedCamera, balls: Iterable[tuple[float, Affine | None]], aspect: float
+) -> PerspectiveCamera | None:
+    """Return a camera that is about where one that frames everything will be, or nearer.
+
+    Args:
+        camera: The one that will frame.
+        balls: The radius round the origin, and the place, of each thing that is drawn. If one has
+            no place, there is no telling.
+        aspect: Width over height of the picture.
+    """
+    lows, highs = [], []
+    for reach, placed in balls:
+        if placed is None:
+            return None
+        radius = _radius(reach, placed)
+        lows.append([value - radius for value in placed.origin])
+        highs.append([value + radius for value in placed.origin])
+    size = length(triple(camera.direction))
+    if not lows or not size:
+        return None
+    low, high = (
+        [min(side) for side in zip(*lows, strict=True)],
+        [max(side) for side in zip(*highs, strict=True)],
+    )
+    # The widest side fits into the narrower angle; its corners may reach out of the picture.
+    widest = max(b - a for a, b in zip(low, high, strict=True))
+    distance = widest / 2 / (math.tan(camera.fov_y / 2) * min(1.0, aspect))
+    middle = [(a + b) / 2 for a, b in zip(low, high, strict=True)]
+    eye = [m + distance * d / size for m, d in zip(middle, camera.direction, strict=True)]
+    # Unchecked: things may stand farther away than a request may put a camera.
+    pose = LookAt.model_construct(eye=eye, target=middle, up=camera.up)
+    return PerspectiveCamera.model_construct(type="perspective", pose=pose, fov_y=camera.fov_y)
+
+
+def _radius(reach: float, placed: Affine) -> float:
+    return reach * max(length(placed.x), length(placed.y), length(placed.z))
 
 
 def _view(camera: PosedCamera) -> tuple[Vector3, Vector3] | None:

@@ -6,15 +6,23 @@ only has to tell a second from a minute and a megabyte from a gigabyte.
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import chain
+from typing import TypeAlias
 
 from api_schemas.assets import AssetFacts, ImageFacts
-from api_schemas.bodies import BYTES_PER_KEPT_TEXEL, BYTES_PER_TEXEL, SECONDS_PER_TEXEL, body
+from api_schemas.bodies import (
+    BYTES_PER_KEPT_TEXEL,
+    BYTES_PER_TEXEL,
+    SECONDS_PER_TEXEL,
+    Body,
+    body,
+)
+from api_schemas.camera import Camera, FramedCamera, PosedCamera
 from api_schemas.cost import Cost
-from api_schemas.coverage import coverage
+from api_schemas.coverage import coverage, stand_in
 from api_schemas.families import SurfaceSpec, TextureSpec
 from api_schemas.geometry import IDENTITY, Affine, Vector3, affine
-from api_schemas.maps import ColorMap, Map, NormalMap, NumberMap
+from api_schemas.maps import ColorMap, NormalMap, NumberMap
+from api_schemas.model_mesh import ModelMesh
 from api_schemas.output_cost import samples_of, sampling, tiles_of, writing
 from api_schemas.requests import RenderRequest, Request
 from api_schemas.scene import Node
@@ -31,11 +39,14 @@ SECONDS_PER_MAP_SAMPLE = {
 }
 SECONDS_TO_COMPILE_A_MAP = 0.12
 SECONDS_PER_DRAWN_TRIANGLE = 5e-8
-SECONDS_PER_DRAW = 1e-4
+SECONDS_PER_DRAW = 2e-4
+SECONDS_PER_SORTED_TRIANGLE = 3e-7
 MAPS_OF_A_MATERIAL = 3
 """Of a material of a model, where facts tell of pictures at all: colour, normals and the rest."""
 LIGHTS_OF_A_STUDIO = 2
 MAPS = ColorMap | NumberMap | NormalMap
+_Drawn: TypeAlias = tuple[Node, Affine | None, Body]
+"""A node, where the middle of its mesh stands, and what that mesh is."""
 
 
 def estimate(request: Request, facts: Mapping[str, AssetFacts]) -> Cost:
@@ -73,56 +84,53 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
     samples, tiles = samples_of(request.output), tiles_of(request.output)
     cost = sampling(request.output)
     scene = request.scene
-    bodies = [
-        (node, placed, found)
+    drawn = [
+        (node, _moved(placed, found.middle), found)
         for node, placed in _placed(scene.nodes, IDENTITY)
         if node.mesh is not None and (found := body(node.mesh, facts)) is not None
     ]
+    camera = _known_camera(scene.camera, drawn, width / height)
     shining = (
-        max(LIGHTS_OF_A_STUDIO, sum(found.lights for _, _, found in bodies))
+        max(LIGHTS_OF_A_STUDIO, sum(found.lights for _, _, found in drawn))
         if scene.lights is None
         else len(scene.lights)
     )
     lighting = SECONDS_PER_SHADED_SAMPLE + shining * SECONDS_PER_LIGHT_SAMPLE
-    making = 0.0
+    textures = _WornTextures(facts)
+    background = _maps(scene.background)
+    cost += textures.cost(background)
+    cost += Cost(samples * _seconds_per_sample(background))
     made = set()
-    worn = [_maps(scene.background)]
-    cost += Cost(samples * _sampling(worn[0]))
-    for node, placed, found in bodies:
-        cost += Cost(tiles * found.pieces * SECONDS_PER_DRAWN_TRIANGLE)
-        cost += Cost(tiles * (found.draws - 1) * SECONDS_PER_DRAW)
+    for node, placed, found in drawn:
+        drawing = found.draws * SECONDS_PER_DRAW + found.pieces * SECONDS_PER_DRAWN_TRIANGLE
+        cost += Cost(tiles * drawing)
         if found.key not in made:
             made.add(found.key)
             cost += found.making
             cost += Cost(MAPS_OF_A_MATERIAL * SECONDS_TO_COMPILE_A_MAP * found.pictures)
         shown = node.surface or node.mesh
         surfaces = [part for _, part in parts(shown) if isinstance(part, SurfaceSpec)]
-        worn += (maps := [_maps(surface) for surface in surfaces])
+        maps = [_maps(surface) for surface in surfaces]
+        for worn in maps:
+            cost += textures.cost(worn)
         own = MAPS_OF_A_MATERIAL * found.pictures * SECONDS_PER_MAP_SAMPLE["anisotropic"]
-        shading = lighting + max([own, *map(_sampling, maps)])
-        covered = coverage(found.reach, _moved(placed, found.middle), scene.camera, width / height)
+        shading = lighting + max([own, *map(_seconds_per_sample, maps)])
         # The parts of one model hide each other: few are seen one behind the other.
-        cost += Cost(samples * covered * shading * math.sqrt(found.draws))
-    for item in chain.from_iterable(worn):
-        picture = f"{type(item).__name__} {item.texture.model_dump_json()}"
-        if picture not in made:
-            made.add(picture)
-            picture_cost = _textures(item.texture, facts, item.texture.surface_side**2)
-            making = max(making, picture_cost.bytes)
-            texels = _texels_worn(item.texture, facts)
-            cost += Cost(picture_cost.seconds, texels * BYTES_PER_KEPT_TEXEL)
-        if (program := f"{picture} {item.filter} {item.wrap}") not in made:
-            made.add(program)
-            cost += Cost(SECONDS_TO_COMPILE_A_MAP)
+        covered = math.sqrt(found.draws)
+        covered *= coverage(found.reach, placed, camera, width / height)
+        if any(surface.alpha_mode == "blend" for surface in surfaces):
+            covered *= 2  # what is behind its front is shaded too
+            cost += Cost(found.pieces * SECONDS_PER_SORTED_TRIANGLE)
+        cost += Cost(samples * covered * shading)
     # Equal things are made once, one after another, and kept: only the largest counts twice.
-    return cost + Cost(bytes=making)
+    return cost + Cost(bytes=textures.making)
 
 
-def _maps(value: object) -> list[ColorMap | NumberMap | NormalMap]:
+def _maps(value: object) -> list[MAPS]:
     return [part for _, part in parts(value) if isinstance(part, MAPS)]
 
 
-def _sampling(maps: Sequence[Map]) -> float:
+def _seconds_per_sample(maps: Sequence[MAPS]) -> float:
     """Return the seconds that looking up all of them once takes."""
     return sum(SECONDS_PER_MAP_SAMPLE[item.filter] for item in maps)
 
@@ -132,6 +140,42 @@ def _moved(placed: Affine | None, middle: Vector3) -> Affine | None:
     if placed is None:
         return None
     return placed @ Affine(IDENTITY.x, IDENTITY.y, IDENTITY.z, middle)
+
+
+def _known_camera(camera: Camera | None, drawn: Sequence[_Drawn], aspect: float) -> Camera | None:
+    """Return the eye, or one about where it will be, unless an uploaded model brings it."""
+    if isinstance(camera, PosedCamera):
+        return camera
+    if any(isinstance(node.mesh, ModelMesh) for node, _, _ in drawn) and camera is None:
+        return None
+    framed = camera if isinstance(camera, FramedCamera) else FramedCamera(type="framed")
+    return stand_in(framed, [(found.reach, at) for _, at, found in drawn], aspect)
+
+
+class _WornTextures:
+    """What the textures of maps cost: each picture and each program counts once."""
+
+    def __init__(self, facts: Mapping[str, AssetFacts]) -> None:
+        self._facts = facts
+        self._made: set[str] = set()
+        self.making = 0.0
+        """Bytes that the largest of them takes while it is made."""
+
+    def cost(self, maps: Sequence[MAPS]) -> Cost:
+        """Return the cost of what these maps need and no earlier ones did."""
+        cost = Cost()
+        for item in maps:
+            picture = f"{type(item).__name__} {item.texture.model_dump_json()}"
+            if picture not in self._made:
+                self._made.add(picture)
+                picture_cost = _textures(item.texture, self._facts, item.texture.surface_side**2)
+                self.making = max(self.making, picture_cost.bytes)
+                texels = _texels_worn(item.texture, self._facts)
+                cost += Cost(picture_cost.seconds, texels * BYTES_PER_KEPT_TEXEL)
+            if (program := f"{picture} {item.filter} {item.wrap}") not in self._made:
+                self._made.add(program)
+                cost += Cost(SECONDS_TO_COMPILE_A_MAP)
+        return cost
 
 
 def _placed(nodes: Sequence[Node], parent: Affine | None) -> Iterator[tuple[Node, Affine | None]]:

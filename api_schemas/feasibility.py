@@ -9,6 +9,7 @@ from api_schemas.geometry import IDENTITY, Affine, Vector3, affine, cross, lengt
 from api_schemas.lights import DirectionalLight, Light, SpotLight
 from api_schemas.maps import MAPS_MAX, Map
 from api_schemas.model_mesh import ModelMesh
+from api_schemas.output import RenderOutput
 from api_schemas.requests import RenderRequest, Request
 from api_schemas.scene import NODES_MAX, Node
 from api_schemas.textures.image import ImageSpec
@@ -41,7 +42,7 @@ def obstacles(request: Request) -> list[Obstacle]:
         found += _light(light, f"/scene/lights/{index}")
     for index, node in enumerate(request.scene.nodes):
         found += _node(node, f"/scene/nodes/{index}", IDENTITY)
-    return found
+    return found + list(_layers(request.output))
 
 
 def assets_in(request: Request) -> list[tuple[str, str]]:
@@ -79,6 +80,15 @@ def _limits(request: Request) -> Iterator[Obstacle]:
     ):
         if count > limit:
             yield Obstacle("too_many_nodes", "", f"{count} {things}; at most {limit}")
+
+
+def _layers(output: RenderOutput) -> Iterator[Obstacle]:
+    if output.format != "exr" and len(output.layers) > 1:
+        yield Obstacle(
+            "layers_need_exr",
+            "/output/layers",
+            f"a PNG shows one layer, not {len(output.layers)}; an EXR holds them all",
+        )
 
 
 def _camera(camera: Camera | None) -> Iterator[Obstacle]:

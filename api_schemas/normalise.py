@@ -24,6 +24,11 @@ def normalise(request: Request, file_format: Format, facts: Mapping[str, AssetFa
         encoded = meaning == "colour" and isinstance(asset, ImageFacts) and not asset.float
         return part.model_copy(update={"encoding": "srgb" if encoded else "linear"})
 
-    output = request.output.model_copy(update={"format": file_format})
     settled: TextureRequest | RenderRequest = rewrite(request, settle)
-    return settled.model_copy(update={"output": output})
+    return formatted(settled, file_format)
+
+
+def formatted(request: Request, file_format: Format) -> Request:
+    """Settle the file format."""
+    output = request.output.model_copy(update={"format": file_format})
+    return request.model_copy(update={"output": output})

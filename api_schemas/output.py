@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from api_schemas.base import WHOLE, Schema
+from api_schemas.base import UNIQUE_ITEMS, WHOLE, Schema
 
 SIDE_MAX = 16384
 """Pixels along a side of anything: the largest texture OpenGL takes."""
@@ -68,9 +68,19 @@ class RenderOutput(Output):
     supersampling: Annotated[int, Field(ge=1, le=8), WHOLE] = Field(
         default=2, description="Samples per pixel along each side: more are smoother and slower."
     )
-    layers: Annotated[list[Layer], Field(max_length=10)] = Field(
+    layers: Annotated[list[Layer], Field(max_length=10), UNIQUE_ITEMS] = Field(
         default=[],
         json_schema_extra={"uniqueItems": True},
-        description="What an EXR tells of each pixel besides its colour; a PNG shows one layer "
-        "instead of the colour.",
+        description="What is told of each pixel besides its colour. An EXR holds all that are "
+        "named, as channels: depth Z, the distance along the view axis, 1e10 where nothing is; "
+        "position P, in the world; normal N, the one that is lit, and geometric_normal Ng, that of "
+        "the flat triangle, both on the eye's side; tangent T, where u grows; uv, set 0; albedo, "
+        "the color of an unlit, diffuse or base, premultiplied, like light the mean of all "
+        "samples; object_id, from 1 in the order of drawing, depth first; material_id, from 1 in "
+        "the same order, equal surfaces together; coverage, the share of the pixel that things "
+        "cover. All but albedo and coverage belong to the nearest sample, are never averaged and 0 "
+        "where nothing is; what is blended leaves them to what is behind it. A PNG shows one layer "
+        "instead of the colour: albedo like a picture, directions as n / 2 + 1/2, depth as "
+        "1 / (1 + Z), uv as red and green, an id as its own code, position and coverage as they "
+        "are, cut off outside of 0..1.",
     )

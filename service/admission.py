@@ -10,7 +10,7 @@ from api_schemas.cost import Cost
 from api_schemas.digest import digest
 from api_schemas.estimate import estimate
 from api_schemas.feasibility import Obstacle, assets_in, obstacles
-from api_schemas.normalise import normalise
+from api_schemas.normalise import formatted, normalise
 from api_schemas.output import Format
 from api_schemas.problems import PROBLEMS_MAX, CostFigures, Obstruction
 from api_schemas.requests import Kind, RenderRequest, Request
@@ -32,6 +32,7 @@ class Finding:
 
 def examine(request: Request, file_format: Format, find_facts: FindFacts, limit: Cost) -> Finding:
     """Find out whether a request can be done, what it takes, and what it is called."""
+    request = formatted(request, file_format)
     assets = assets_in(request)
     known = {sha256: find_facts(sha256) for sha256 in {sha256 for _, sha256 in assets}}
     facts = {sha256: found for sha256, found in known.items() if found is not None}

@@ -130,6 +130,7 @@ SUBMITTED: Final[Responses] = {
         "nesting_too_deep",
         "too_many_nodes",
         "too_many_maps",
+        "layers_need_exr",
         "over_budget",
         "job_failed",
         "job_cancelled",

@@ -38,6 +38,7 @@ MESSAGES: Final[Mapping[str, tuple[str, str]]] = {
     "less_than": ("out_of_range", "must be less than {lt}"),
     "too_short": ("wrong_length", "must have at least {min_length} items"),
     "too_long": ("wrong_length", "must have at most {max_length} items"),
+    "repeated": ("repeated", "must not have an item twice"),
     "string_too_short": ("wrong_length", "must have at least {min_length} characters"),
     "string_too_long": ("wrong_length", "must have at most {max_length} characters"),
     "string_pattern_mismatch": ("wrong_text", "must match {pattern}"),

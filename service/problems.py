@@ -40,6 +40,7 @@ TABLE: Final[Mapping[str, tuple[int, str]]] = {
     "nesting_too_deep": (409, "Too many levels within each other"),
     "too_many_nodes": (409, "Too many textures or scene nodes"),
     "too_many_maps": (409, "Too many maps on one surface"),
+    "layers_need_exr": (409, "A PNG shows one layer only"),
     "over_budget": (409, "The request would take too much time or memory"),
     "job_not_finished": (409, "The job is not finished"),
     "job_cancelled": (409, "The job was cancelled"),

@@ -77,9 +77,9 @@ def _shown(band: Mapping[str, Image], bits: PngBits) -> Image:
     if name in ("normal", "geometric_normal", "tangent"):
         pixels = pixels * np.float32(0.5) + np.float32(0.5)
     elif name == "depth":
-        pixels = 1 / (1 + pixels)
+        pixels = np.reciprocal(np.float32(1) + pixels)
     elif name in ("object_id", "material_id"):
         pixels = pixels / np.float32(2**bits - 1)
     elif name == "uv":
-        pixels = np.pad(pixels, ((0, 0), (0, 0), (0, 1)))
+        pixels = np.concatenate([pixels, np.zeros_like(pixels[..., :1])], axis=2)
     return Image(pixels, image.meaning)

@@ -15,6 +15,7 @@ from api_schemas.textures.image import ImageSpec
 from worker import result_file, synthesis
 from worker.errors import AssetMissingError
 from worker.fingerprint import fingerprint
+from worker.geometry import models
 from worker.images.image import Image
 from worker.rendering import renderer
 from worker.rendering.packing import PICTURE
@@ -30,7 +31,9 @@ def warm(report: Report) -> dict[str, Any]:
     Returns:
         `fingerprint`: everything outside a request that decides pixels.
     """
-    synthesis.warm(lambda share, name: report(0.5 * share, name))
+    report(0.0, "models")
+    models.warm()
+    synthesis.warm(lambda share, name: report(0.1 + 0.4 * share, name))
     renderer.warm(lambda share, name: report(0.5 + 0.5 * share, name))
     report(1.0, "ready")
     return {"fingerprint": fingerprint()}
@@ -59,13 +62,13 @@ def run(request: dict[str, Any], out: Path, report: Report) -> dict[str, Any]:
     with stages.stage("find", 0.0, 0.02):
         assets = Path(request["assets"])
         pictures = UploadedPictures(assets)
-        models = UploadedModels(assets, pictures)
+        uploads = UploadedModels(assets, pictures)
         _find(body, assets)
     if isinstance(body, RenderRequest):
         # A band is written while the next one is waiting to be drawn.
         with stages.stage("render", 0.02, 0.98) as progress:
             drawn = renderer.render(
-                body.scene, body.output, _maker(pictures), models.read, progress
+                body.scene, body.output, _maker(pictures), uploads.read, progress
             )
             bands = Watch(drawn.bands)
             start = time.perf_counter()

@@ -2,8 +2,8 @@ import math
 
 import pytest
 
-from api_schemas.camera import OrthographicCamera, PerspectiveCamera
-from api_schemas.coverage import coverage
+from api_schemas.camera import FramedCamera, OrthographicCamera, PerspectiveCamera
+from api_schemas.coverage import coverage, stand_in
 from api_schemas.geometry import IDENTITY, Affine
 
 EYE = {"eye": [0.0, 0.0, 5.0]}
@@ -41,3 +41,41 @@ def test_what_holds_the_eye_covers_all_and_what_is_behind_nothing():
 def test_what_has_no_usable_place_covers_all(camera):
     assert coverage(1.0, None, camera, 1.0) == 1.0
     assert coverage(1.0, at(0, 0, -1e200, 1e200), camera, 1.0) == 1.0
+
+
+def test_an_unknown_eye_may_see_nothing_else():
+    assert coverage(1.0, at(0, 0, -50), None, 1.0) == 1.0
+
+
+@pytest.mark.parametrize("aspect", [0.25, 1.0, 4.0])
+@pytest.mark.parametrize("direction", [[0.0, 0.0, 1.0], [3.0, -2.0, 1.0]])
+def test_a_framed_ball_covers_about_what_touches_the_edges(aspect, direction):
+    framed = FramedCamera(type="framed", direction=direction)
+
+    told = coverage(7.0, at(1e5, 0, 9), stand_in(framed, [(7.0, at(1e5, 0, 9))], aspect), aspect)
+
+    # A disc whose width is the shorter side; the free space round it is not told.
+    exact = math.pi / 4 * min(aspect, 1 / aspect)
+    assert exact <= told <= 6 * exact
+
+
+def test_many_framed_things_share_the_picture():
+    row = [(1.0, at(10.0 * x, 0, 0)) for x in range(20)]
+    camera = stand_in(FramedCamera(type="framed", direction=[0.0, 0.0, 1.0]), row, 1.0)
+
+    told = sum(coverage(reach, place, camera, 1.0) for reach, place in row)
+
+    # Discs of a 192nd of the picture's width, and a little more.
+    exact = 20 * math.pi / 192**2
+    assert exact <= told <= 2 * exact
+
+
+@pytest.mark.parametrize(
+    "balls",
+    [[], [(1.0, None)], [(1.0, at(0, 0, 0)), (1.0, None)]],
+    ids=["none", "astray", "one astray"],
+)
+def test_what_cannot_be_framed_is_not_told(balls):
+    assert stand_in(FramedCamera(type="framed"), balls, 1.0) is None
+    nowhere = FramedCamera(type="framed", direction=[0.0, 0.0, 0.0])
+    assert stand_in(nowhere, [(1.0, at(0, 0, 0))], 1.0) is None

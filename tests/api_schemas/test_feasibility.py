@@ -162,3 +162,20 @@ def test_assets_are_found_wherever_a_texture_may_stand():
         ("/scene/nodes/0/surface/diffuse_color/texture/asset", first),
         ("/scene/nodes/0/surface/exponent/texture/input/asset", second),
     ]
+
+
+@pytest.mark.parametrize(
+    ("file_format", "layers", "codes"),
+    [
+        ("png", [], []),
+        ("png", ["depth"], []),
+        ("png", ["depth", "uv"], [("layers_need_exr", "/output/layers")]),
+        (None, ["depth", "uv"], [("layers_need_exr", "/output/layers")]),
+        ("exr", ["depth", "uv"], []),
+    ],
+)
+def test_a_png_shows_one_layer(file_format, layers, codes):
+    request = scene().model_dump()
+    request["output"] |= {"format": file_format, "layers": layers}
+
+    assert found(RenderRequest.model_validate(request)) == codes

@@ -56,6 +56,16 @@ def test_names_of_union_members_are_not_keys():
     }
 
 
+def test_a_list_of_different_things_refuses_repetitions_and_what_is_unknown():
+    scene = {"scene": {"camera": CAMERA, "nodes": []}}
+
+    def layers(*names):
+        return problems(RenderRequest, {**scene, "output": {"layers": list(names)}})
+
+    assert layers("depth", "uv", "depth") == {"/output/layers": "repeated"}
+    assert layers("depth", "z") == {"/output/layers/1": "not_a_choice"}
+
+
 def test_a_key_called_like_a_union_member_is_still_a_key():
     assert texture({"technique": "constant", "value": "x", "constant": {"value": 1}}) == {
         "/texture/value": "wrong_type",

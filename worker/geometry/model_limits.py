@@ -43,5 +43,5 @@ def check_size(count: int, most: int, what: str) -> None:
     """
     if count > most:
         raise UnusableAssetError(
-            f"the model has {count:g} {what}; the most is {most}", code="asset_too_large"
+            f"the model has {count} {what}; the most is {most}", code="asset_too_large"
         )

@@ -29,9 +29,12 @@ from worker.geometry.mtl_surfaces import surfaces_of
 from worker.geometry.obj_pieces import Piece, Statements, build_pieces
 from worker.geometry.outline import Outline, outline_of
 from worker.geometry.siblings import NAME_LENGTH_MAX, decoded, sibling_name
+from worker.geometry.vertices import number_rows, used
 
 GROUPS_MAX = 500
-"""Draws of one file: each costs about a millisecond. Beyond, groups are joined."""
+"""Parts of one file: each costs about a millisecond to draw. Beyond, groups are joined."""
+MATERIALS_MAX = 4096
+"""Parts when groups are joined."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,16 +143,17 @@ def parse(data: bytes) -> ObjFile:
     material, materials = _named(elements[:, 3], written)
     group, groups = _named(elements[:, 4], written)
     warnings = []
-    owners = np.stack([elements[:, 0], group, material], axis=1)
-    if len(np.unique(owners, axis=0)) > GROUPS_MAX:
-        warnings.append(f"its groups are joined: it has more than {GROUPS_MAX}")
+    owners = np.stack([elements[:, 0], group, material], axis=1).astype(np.int64)
+    if len(number_rows(owners)[1]) > GROUPS_MAX:
+        warnings.append(f"its groups are joined: they have more than {GROUPS_MAX} parts")
         owners[:, 1], groups = -1, ()
+        check_size(len(number_rows(owners)[1]), MATERIALS_MAX, "materials")
     if counts[obj_scan.FREE_FORM]:
         warnings.append("free-form curves and surfaces are not drawn")
     short = statements.sizes < np.choose(statements.kinds - obj_scan.FACE, (3, 2, 1))
     if short.any():
         warnings.append(f"{int(short.sum())} faces and lines of too few corners are left out")
-    pieces = build_pieces(statements, owners.astype(np.int64), np.flatnonzero(~short))
+    pieces = build_pieces(statements, owners, np.flatnonzero(~short))
     if not pieces:
         raise UnusableAssetError("it has no faces of three corners or more")
     return ObjFile(
@@ -192,9 +196,9 @@ def _check(counts: NDArray[np.int64]) -> None:
 
 
 def _check_numbers(statements: Statements) -> None:
-    check_positions(statements.vertices[np.unique(statements.corners[:, 0]), :3])
-    textured = np.unique(statements.corners[:, 1])
-    check_uv(statements.texture_vertices[textured[textured >= 0]])
+    vertices, texture_vertices = statements.vertices, statements.texture_vertices
+    check_positions(vertices[used(statements.corners[:, 0], len(vertices)), :3])
+    check_uv(texture_vertices[used(statements.corners[:, 1], len(texture_vertices))])
 
 
 def _named(
@@ -203,7 +207,7 @@ def _named(
     """Turn numbers of marks into numbers of names, in the order in which they are first used."""
     names: dict[str, int] = {}
     number = np.full(len(written) + 1, -1, np.int32)  # the last one is for -1: no mark
-    for mark in np.unique(marks[marks >= 0]).tolist():
+    for mark in np.flatnonzero(used(marks, len(written))).tolist():
         name = written[mark][:NAME_LENGTH_MAX] or "default"
         number[mark] = names.setdefault(name, len(names))
     return number[marks], tuple(names)

@@ -12,7 +12,7 @@ from worker.geometry.model_limits import TRIANGLES_MAX, check_positions, check_s
 from worker.geometry.ply_body import Table
 from worker.geometry.ply_header import Header
 from worker.geometry.polygons import triangulate
-from worker.geometry.vertices import normalised, number_rows, smooth_normals
+from worker.geometry.vertices import normalised, number_rows, smooth_normals, used
 from worker.images.colour import linear_from_srgb
 
 ELEMENTS: Final = frozenset(("vertex", "face", "tristrips", "edge"))
@@ -48,7 +48,7 @@ def build_mesh(header: Header, tables: Mapping[str, Table]) -> tuple[Mesh, list[
     if not len(corners):
         kind, corners = _edges_or_points(tables.get("edge"), len(positions))
         faces, wedges = None, None
-    check_positions(positions[np.unique(corners)])
+    check_positions(positions[used(corners, len(positions))])
     uv = wedges
     if uv is None and (of_vertex := _uv(vertices)) is not None:
         uv = of_vertex[corners]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -24,7 +24,7 @@ def number_rows(keys: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.
     """
     numbers = np.empty(len(keys), np.int64)
     firsts = np.empty(len(keys), np.int64)
-    slots = np.full(1 << max(2 * len(keys), 2).bit_length(), -1, np.int64)
+    slots = np.full(1 << (2 * len(keys)).bit_length(), -1, np.int32)
     count = _number_rows(np.ascontiguousarray(keys).view(np.uint64), slots, numbers, firsts)
     return numbers, firsts[:count].copy()
 
@@ -32,7 +32,7 @@ def number_rows(keys: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.
 @kernel
 def _number_rows(
     keys: NDArray[np.uint64],
-    slots: NDArray[np.int64],
+    slots: NDArray[np.int32],
     numbers: NDArray[np.int64],
     firsts: NDArray[np.int64],
 ) -> int:
@@ -62,6 +62,13 @@ def _equal(keys: NDArray[np.uint64], a: int, b: int) -> bool:
     while column < keys.shape[1] and keys[a, column] == keys[b, column]:
         column += 1
     return bool(column == keys.shape[1])
+
+
+def used(indices: NDArray[np.integer[Any]], count: int) -> NDArray[np.bool_]:
+    """Say of each of `count` things whether any index names it; -1 names none."""
+    named = np.zeros(count + 1, np.bool_)
+    named[indices] = True
+    return named[:count]
 
 
 def smooth_normals(
@@ -112,26 +119,42 @@ def _add_shares(
     joints: NDArray[np.int64],
     normals: NDArray[np.float64],
 ) -> None:
-    sides = np.empty((3, 3))
     for row in range(len(triangles)):
-        for k in range(3):
-            a, b = triangles[row, k], triangles[row, (k + 1) % 3]
-            length = 0.0
-            for axis in range(3):
-                sides[k, axis] = positions[b, axis] - positions[a, axis]
-                length = max(length, abs(sides[k, axis]))
-            if length > 0:
-                sides[k] /= length
-                sides[k] /= math.sqrt((sides[k] ** 2).sum())
-        for k in range(3):
-            to, back = sides[k], sides[(k + 2) % 3]
-            x = back[1] * to[2] - back[2] * to[1]
-            y = back[2] * to[0] - back[0] * to[2]
-            z = back[0] * to[1] - back[1] * to[0]
-            sine = math.sqrt(x * x + y * y + z * z)
-            if sine > 0:
-                angle = math.atan2(sine, -(to * back).sum())
-                joint = joints[row, k]
-                normals[joint, 0] += x / sine * angle
-                normals[joint, 1] += y / sine * angle
-                normals[joint, 2] += z / sine * angle
+        a, b, c = triangles[row, 0], triangles[row, 1], triangles[row, 2]
+        ab = _direction(positions[a], positions[b])
+        bc = _direction(positions[b], positions[c])
+        ca = _direction(positions[c], positions[a])
+        _add_share(normals[joints[row, 0]], ca, ab)
+        _add_share(normals[joints[row, 1]], ab, bc)
+        _add_share(normals[joints[row, 2]], bc, ca)
+
+
+@kernel
+def _direction(start: NDArray[np.float64], end: NDArray[np.float64]) -> tuple[float, float, float]:
+    """Give the unit vector from one point to another, or zeros."""
+    x, y, z = end[0] - start[0], end[1] - start[1], end[2] - start[2]
+    largest = max(abs(x), abs(y), abs(z))
+    if largest == 0:
+        return 0.0, 0.0, 0.0
+    x, y, z = x / largest, y / largest, z / largest
+    length = math.sqrt(x * x + y * y + z * z)
+    return x / length, y / length, z / length
+
+
+@kernel
+def _add_share(
+    normal: NDArray[np.float64],
+    coming: tuple[float, float, float],
+    going: tuple[float, float, float],
+) -> None:
+    """Add the normal of a corner between two sides, as long as the angle there."""
+    x = coming[1] * going[2] - coming[2] * going[1]
+    y = coming[2] * going[0] - coming[0] * going[2]
+    z = coming[0] * going[1] - coming[1] * going[0]
+    sine = math.sqrt(x * x + y * y + z * z)
+    if sine > 0:
+        cosine = -(coming[0] * going[0] + coming[1] * going[1] + coming[2] * going[2])
+        weight = math.atan2(sine, cosine) / sine
+        normal[0] += x * weight
+        normal[1] += y * weight
+        normal[2] += z * weight

@@ -29,9 +29,10 @@ class Scanlines:
         self._path = path
         self._bytes = spec.image_bytes(True)
         self._next = 0
-        self._file = OpenImageIO.ImageOutput.create(format_name)
-        if self._file is None:
+        file = OpenImageIO.ImageOutput.create(format_name)
+        if file is None:
             raise OSError(f"this OpenImageIO cannot write {format_name}")
+        self._file = file
         if not self._file.open(str(path), spec):
             raise self._failure()
 

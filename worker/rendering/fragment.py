@@ -1,6 +1,6 @@
 """The fragment shader of a surface: its chunk, and generated code that fills its parameters."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from worker.rendering.chunks import Source, chunk, join
 from worker.rendering.shading import LookupLayout, Parameter, ShadingLayout
@@ -23,9 +23,10 @@ def background_sources(layout: ShadingLayout) -> tuple[Source, Source]:
     (color,) = layout.parameters
     texel = f"texel_{color.lookup}"
     lines = [
-        *_head(layout, "lib/background.glsl", ()),
+        *_head(layout, ["lib/background.glsl"]),
         *_declarations(color),
-        *_begin_main(layout, "point_on_picture"),
+        "void main() {",
+        *_texels(layout, lambda lookup: "coordinates_picture()"),
         f"    vec3 light = color_scale * {texel}.rgb + color_bias * {texel}.a;",
         f"    color = holdable(vec4(light, clamp({texel}.a, 0.0, 1.0)));",
         "}",
@@ -36,15 +37,18 @@ def background_sources(layout: ShadingLayout) -> tuple[Source, Source]:
 
 def _fragment(layout: ShadingLayout, layered: bool) -> str:
     parameters = [*layout.parameters, *([layout.opacity] if layout.opacity else [])]
-    chunks = [f"surfaces/{layout.technique}.glsl"]
+    chunks = ["lib/fragment.glsl", f"surfaces/{layout.technique}.glsl"]
+    chunks += [f"coordinates/{lookup.coordinates}.glsl" for lookup in layout.lookups]
+    chunks += ["lib/normal_map.glsl"] if layout.normal is not None else []
     chunks += ["lib/opacity.glsl"] if layout.opacity else []
     chunks += ["lib/layers.glsl"] if layered else []
-    lines = _head(layout, "lib/fragment.glsl", chunks)
+    lines = _head(layout, chunks)
     for parameter in parameters:
         lines += _declarations(parameter)
     if layout.normal is not None:
         lines += ["uniform vec2 normal_range;", "uniform vec4 normal_axes;"]
-    lines += _begin_main(layout, "surface_point")
+    lines += ["void main() {", "    SurfacePoint point = surface_point();"]
+    lines += _texels(layout, _coordinates)
     if layout.normal is not None:
         lines += _tilt(layout.normal)
     lines.append("    Surface surface;")
@@ -58,17 +62,10 @@ def _fragment(layout: ShadingLayout, layered: bool) -> str:
     return "\n".join([*lines, "}"])
 
 
-def _head(layout: ShadingLayout, base: str, more: Sequence[str]) -> list[str]:
+def _head(layout: ShadingLayout, chunks: Sequence[str]) -> list[str]:
     """Write the chunks and the uniforms of lookups."""
     lookups = layout.lookups
-    chunks = [
-        base,
-        *more,
-        *(f"coordinates/{lookup.coordinates}.glsl" for lookup in lookups),
-        *(f"lib/sample_{lookup.filter}.glsl" for lookup in lookups),
-    ]
-    if layout.normal is not None:
-        chunks.append("lib/normal_map.glsl")
+    chunks = [*chunks, *(f"lib/sample_{lookup.filter}.glsl" for lookup in lookups)]
     lines = [VERSION, *(f'#include "{name}"' for name in dict.fromkeys(chunks))]
     if lookups:
         lines += [
@@ -80,16 +77,14 @@ def _head(layout: ShadingLayout, base: str, more: Sequence[str]) -> list[str]:
     return lines
 
 
-def _begin_main(layout: ShadingLayout, point: str) -> list[str]:
-    """Begin the main function with the point and all texels."""
-    lines = ["void main() {", f"    SurfacePoint point = {point}();"]
-    for index, lookup in enumerate(layout.lookups):
-        lines.append(
-            f"    vec4 texel_{index} = sample_{lookup.filter}(picture_{lookup.picture}, "
-            f"look_up({_coordinates(lookup)}, lookup_transform[{index}], "
-            f"lookup_period[{index}], lookup_size[{index}]));"
-        )
-    return lines
+def _texels(layout: ShadingLayout, coordinates: Callable[[LookupLayout], str]) -> list[str]:
+    """Write the readings of all pictures; `coordinates` gives the call that says where."""
+    return [
+        f"    vec4 texel_{index} = sample_{lookup.filter}(picture_{lookup.picture}, "
+        f"look_up({coordinates(lookup)}, lookup_transform[{index}], "
+        f"lookup_period[{index}], lookup_size[{index}]));"
+        for index, lookup in enumerate(layout.lookups)
+    ]
 
 
 def _coordinates(lookup: LookupLayout) -> str:

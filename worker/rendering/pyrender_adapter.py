@@ -59,7 +59,8 @@ class _Frame:
         clip_from_object: float32 (n, 4, 4), by the number of the drawable.
         eye: As lib/fragment.glsl wants it.
         corner: Of the tile in the picture, in samples from the lower left.
-        picture: Width and height of the whole picture in samples.
+        picture: Width and height of the whole picture in pixels.
+        supersampling: Samples along each side of a pixel.
         blending: Whether what is drawn now lets light through.
         bound: What each texture unit holds.
     """
@@ -71,6 +72,7 @@ class _Frame:
     eye: NDArray[np.float64]
     corner: NDArray[np.float64]
     picture: NDArray[np.float64]
+    supersampling: int
     blending: bool
     bound: dict[int, Picture]
 
@@ -113,7 +115,7 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
             target: Where the samples go.
             tile_from_picture: Stretches the tile's part of clip space over all of it.
             size: The tile's width and height in samples.
-            supersampling: Samples along each side of a pixel: how wide lines and points are.
+            supersampling: Samples along each side of a pixel, as wide as lines and points are.
 
         Raises:
             RenderError: OpenGL complains, or this is not the context's thread.
@@ -130,7 +132,8 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
             clip_from_object=floats(clip_from_world @ scene.world_from_object),
             eye=np.append(backward, 0.0) if view.orthographic else np.array([0.0, 0.0, 0.0, 1.0]),
             corner=np.rint((picture - (1 + tile_from_picture[:2, 3]) * size) / 2),
-            picture=np.rint(picture),
+            picture=np.rint(picture / supersampling),
+            supersampling=supersampling,
             blending=False,
             bound={},
         )
@@ -246,6 +249,7 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         program.bind()
         program.set("corner", self._frame.corner)
         program.set("picture_size", self._frame.picture)
+        program.set("samples_per_side", self._frame.supersampling)
         self._bind_surface(program, shading)
         start = time.perf_counter()
         self._no_vertices = self._no_vertices or int(GL.glGenVertexArrays(1))

@@ -110,7 +110,9 @@ def render(
     width, height = output.size
     report(0.0, "build")
     start = time.perf_counter()
-    built = engine.builder.build(scene, width / height, textures, models)
+    built = engine.builder.build(
+        scene, width / height, textures, models, tangents="tangent" in output.layers
+    )
     timings = {"build_ms": _milliseconds(time.perf_counter() - start)}
     counts = {"triangles": built.triangles, "texels": built.texels}
     lights = light_uniforms(built.lights, built.view.world_from_camera[:3, 3])

@@ -82,7 +82,13 @@ class SceneBuilder:
         self._meshes = ByteCache[VertexArray](MESH_BYTES_MAX, VertexArray.delete)
 
     def build(
-        self, scene: Scene, aspect: float, maker: TextureMaker, reader: ModelReader
+        self,
+        scene: Scene,
+        aspect: float,
+        maker: TextureMaker,
+        reader: ModelReader,
+        *,
+        tangents: bool = False,
     ) -> BuiltScene:
         """Place, upload and lay out everything in a scene.
 
@@ -91,6 +97,7 @@ class SceneBuilder:
             aspect: Width over height of the picture.
             maker: Makes the pictures of textures that are not kept from an earlier scene.
             reader: Reads the uploaded models.
+            tangents: Whether all meshes need them, not only those with normal maps.
 
         Raises:
             WorkerError: The camera is degenerate, a budget is exceeded, a texture cannot be made,
@@ -107,7 +114,7 @@ class SceneBuilder:
                 key = node.mesh.model_dump_json()
                 make = partial(primitives.build, node.mesh)
                 placed.append(_Placed(key, make, node.surface or _MATT_GREY, matrix))
-        kept = [self._kept(item) for item in placed]
+        kept = [self._kept(item, tangents) for item in placed]
         worn: dict[str, tuple[Shading, int]] = {}
         drawables = []
         for item, mesh in zip(placed, kept, strict=True):
@@ -146,8 +153,10 @@ class SceneBuilder:
         self._textures.trim()
         self._meshes.trim()
 
-    def _kept(self, item: _Placed) -> VertexArray:
+    def _kept(self, item: _Placed, tangents: bool) -> VertexArray:
         uv_set = tangent_uv_set(item.surface)
+        if tangents and uv_set is None:
+            uv_set = 0
 
         def make() -> tuple[VertexArray, int]:
             mesh = item.mesh()

@@ -80,3 +80,20 @@ def test_every_example_fits_its_schema(client):
         assert answer.status_code == 200, name
         assert answer.json()["kind"] == kind
         assert {item["code"] for item in answer.json()["problems"]} <= {"asset_missing"}, name
+
+
+def test_many_layers_need_an_exr_whoever_chooses_the_format(client):
+    body = {
+        "scene": {"camera": {"type": "perspective", "pose": {"eye": [0, 0, 3]}}, "nodes": []},
+        "output": {"size": [16, 16], "layers": ["depth", "normal"]},
+    }
+
+    def codes(accept):
+        answer = client.post("/v1/validate", json=body, headers={"Accept": accept})
+        return [item["code"] for item in answer.json()["problems"]]
+
+    assert codes("application/json") == ["layers_need_exr"]
+    refused = client.post("/v1/renders", json=body)
+    assert (refused.status_code, refused.json()["pointer"]) == (409, "/output/layers")
+    accepted = client.post("/v1/renders", json=body, headers={"Accept": "image/x-exr, */*;q=0.1"})
+    assert accepted.status_code != 409

@@ -216,3 +216,19 @@ def test_checkered_floor_to_the_horizon(studio: Studio, exact: np.ndarray) -> No
 
 def test_the_horizon_is_the_mean(studio: Studio) -> None:
     assert floor(studio, "anisotropic")[1:3].mean() == pytest.approx(0.5, abs=1e-3)
+
+
+def test_a_round_footprint_reads_what_is_there(studio: Studio) -> None:
+    # However it lies to the pixels: neither axis is the longer one, but by the last bit.
+    white = studio.texture(np.ones((64, 64)))
+    rng = np.random.default_rng(1)
+    for scale, turn in zip(rng.uniform(1.5, 4, 60), rng.integers(0, 24, 60), strict=True):
+        mapped = {
+            "texture": white,
+            "filter": "anisotropic",
+            "transform": {"scale": [scale, scale], "rotation": turn * np.pi / 12},
+        }
+
+        drawn = studio.poster({"technique": "unlit", "color": mapped}, (64, 64))
+
+        assert (drawn[..., 0] == 1).all(), (scale, turn)

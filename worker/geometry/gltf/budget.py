@@ -5,13 +5,9 @@ from collections.abc import Iterable
 from worker.geometry.gltf.document.meshes import Primitive
 from worker.geometry.gltf.document.root import Document
 from worker.geometry.gltf.faults import too_large
-from worker.geometry.gltf.limits import (
-    MORPHED_VERTICES_MAX,
-    PARTS_MAX,
-    TRIANGLES_MAX,
-    VERTICES_MAX,
-)
+from worker.geometry.gltf.limits import MORPHED_VERTICES_MAX, PARTS_MAX
 from worker.geometry.gltf.topology import KINDS, count_of
+from worker.geometry.model_limits import TRIANGLES_MAX, VERTICES_MAX
 
 
 class Budget:

@@ -1,4 +1,7 @@
-"""How much a glTF file may ask for. Everything is counted before memory is taken for it."""
+"""How much a glTF file may ask for, besides what `model_limits` says of every model.
+
+Everything is counted before memory is taken for it.
+"""
 
 from typing import Final
 
@@ -17,14 +20,9 @@ NODES_MAX: Final = 10_000
 ITEMS_MAX: Final = 50_000
 """Of any other list of the document: five for each node."""
 PARTS_MAX: Final = 10_000
-VERTICES_MAX: Final = 4_000_000
-TRIANGLES_MAX: Final = 8_000_000
-"""Triangles, lines and points drawn together, a mesh that stands in two places counted twice."""
 ELEMENTS_MAX: Final = 32_000_000
 """Elements of one accessor: what fits an upload of the usual limit and more."""
 MORPHED_VERTICES_MAX: Final = 64_000_000
 """Vertices times the targets that move them."""
 JOINT_SETS_MAX: Final = 4
-FARTHEST: Final = 1e9
-"""Largest coordinate in the model's frame; float32 squares of it are still numbers."""
 WARNINGS_MAX: Final = 64

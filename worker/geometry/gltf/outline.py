@@ -7,7 +7,7 @@ import numpy as np
 
 from worker.geometry.gltf.document.meshes import Primitive
 from worker.geometry.gltf.document.root import Document
-from worker.geometry.gltf.reader import Checked, check, read, resting_poses, views
+from worker.geometry.gltf.reader import Checked, check, complete, resting_poses, views
 from worker.geometry.gltf.resources import Resources, needed_files
 from worker.geometry.gltf.semantics import UV_SETS_MAX, sets_of
 from worker.geometry.gltf.topology import KINDS, count_of
@@ -29,7 +29,7 @@ def outline(data: bytes) -> Outline:
     files = needed_files(checked.document)
     if files:
         return _by_json(checked, files)
-    return _by_content(checked, read(data, {}))
+    return _by_content(checked, complete(checked, {}))
 
 
 def _by_content(checked: Checked, model: Model) -> Outline:

@@ -16,7 +16,7 @@ from worker.geometry.gltf.extensions import check_extensions
 from worker.geometry.gltf.faults import unusable
 from worker.geometry.gltf.json_text import parse
 from worker.geometry.gltf.lights import light_at
-from worker.geometry.gltf.limits import FARTHEST, WARNINGS_MAX
+from worker.geometry.gltf.limits import WARNINGS_MAX
 from worker.geometry.gltf.materials import surface_of
 from worker.geometry.gltf.mesh_checks import check_meshes
 from worker.geometry.gltf.references import check_references
@@ -28,6 +28,7 @@ from worker.geometry.gltf.textures import Textures
 from worker.geometry.gltf.tree import Tree, check_nodes, grow, shown_nodes
 from worker.geometry.mesh import Mesh
 from worker.geometry.model import Model, NamedCamera, NamedSurface, Part
+from worker.geometry.model_limits import FARTHEST
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +54,11 @@ def read(data: bytes, files: Mapping[str, bytes], scene: int | None = None) -> M
         UnusableAssetError: `asset_unusable`, `asset_unsupported` or `asset_too_large`, with the
             place in the document.
     """
-    checked = check(data)
+    return complete(check(data), files, scene)
+
+
+def complete(checked: Checked, files: Mapping[str, bytes], scene: int | None = None) -> Model:
+    """Read the data of a file whose JSON has been checked; see `read`."""
     document = checked.document
     shown = shown_nodes(document, checked.tree, scene)
     poses = resting_poses(document, shown)
@@ -160,6 +165,8 @@ def _parts(
 
 def _check_reach(mesh: Mesh, matrix: np.ndarray, place: str) -> None:
     reach = np.abs(mesh.positions).max(axis=0)
+    if any((np.abs(uv) > FARTHEST).any() for uv in mesh.uv_sets):
+        raise unusable(place, f"its mesh has texture coordinates beyond {FARTHEST:g}")
     if not (np.abs(matrix[:3, :3]) @ reach + np.abs(matrix[:3, 3]) <= FARTHEST).all():
         raise unusable(place, f"its mesh reaches beyond {FARTHEST:g}")
 

@@ -9,8 +9,8 @@ from worker.errors import UnusableAssetError
 from worker.geometry.gltf.document.root import Document
 from worker.geometry.gltf.document.scene import Node
 from worker.geometry.gltf.faults import unusable
-from worker.geometry.gltf.limits import FARTHEST
 from worker.geometry.gltf.semantics import sets_of
+from worker.geometry.model_limits import FARTHEST
 
 _SHEAR_TOLERANCE = 1e-3
 _ROW_TOLERANCE = 1e-5

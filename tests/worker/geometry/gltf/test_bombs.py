@@ -15,7 +15,7 @@ from tests.worker.geometry.gltf.building import TRIANGLE, Builder, glb, shown
 from worker.errors import UnusableAssetError
 from worker.geometry.gltf.reader import read
 
-SECONDS = 3.0
+SECONDS = 10.0  # on a machine that does other things too; alone it takes a second
 MEMORY = 64 * 2**20
 
 
@@ -43,8 +43,8 @@ def test_gltf_1_four_billion_vertices_in_48_bytes() -> None:
     assert "ends at byte 60000000 of a view of 48" in refused(builder.glb()).message
     builder.json["accessors"][0] = item
     assert refused(builder.glb()).code == "asset_too_large"
-    item["count"] = 4_000_004
-    assert "vertices; at most 4000000" in refused(builder.glb()).message
+    item["count"] = 3 * 2_800_000
+    assert "vertices; at most 8388608" in refused(builder.glb()).message
 
 
 def test_gltf_2_a_data_uri_of_200_megabytes() -> None:
@@ -73,9 +73,9 @@ def test_gltf_3_nodes_100000_deep() -> None:
 def test_one_large_mesh_at_many_nodes_is_counted_at_each() -> None:
     builder = Builder()
     builder.mesh(TRIANGLE, np.zeros(30_000))
-    builder.json["nodes"] = [{"mesh": 0}] * 801
+    builder.json["nodes"] = [{"mesh": 0}] * 420
 
-    assert "8010000 triangles" in refused(builder.glb()).message
+    assert "4200000 triangles" in refused(builder.glb()).message
 
 
 def test_many_primitives_at_many_nodes_are_too_many_draws() -> None:
@@ -118,7 +118,7 @@ def test_poses_of_one_mesh_are_counted_each() -> None:
     builder.mesh(np.zeros((100_000, 3)))
     (primitive,) = builder.json["meshes"][0]["primitives"]
     primitive["targets"] = [{}]
-    builder.json["nodes"] = [{"mesh": 0, "weights": [n / 100]} for n in range(50)]
+    builder.json["nodes"] = [{"mesh": 0, "weights": [n / 100]} for n in range(90)]
 
     assert "vertices; at most" in refused(builder.glb()).message
 

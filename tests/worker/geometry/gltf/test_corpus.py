@@ -158,6 +158,6 @@ def refusal(action: Callable[[], object]) -> str | None:
         assert code in CODES
     peak = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
-    assert time.monotonic() - started < 2
+    assert time.monotonic() - started < 10  # alone it takes some hundredths
     assert peak < 20 * 2**20
     return code

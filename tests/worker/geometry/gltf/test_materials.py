@@ -155,7 +155,10 @@ def test_each_texture_is_read_from_its_channels_in_its_encoding() -> None:
         assert isinstance(value, NumberMap)
         image: Any = value.texture
         assert image.asset == DIGEST[CLEAR]
-        assert image.encoding == ("srgb" if value.channel == "a" else "linear")
+        assert (image.encoding, image.alpha) == (
+            "linear",
+            "use" if value.channel == "a" else "ignore",
+        )
         return value.channel, value.scale, value.bias
 
     assert color(surface.base_color) == ("srgb", "ignore", [0.1, 0.2, 0.3], 1)

@@ -130,6 +130,14 @@ def test_v_is_turned_to_run_up_exactly_once() -> None:
     assert mesh.uv_sets[1].tolist() == [[0, 0.75], [1, -1], [0, 2], [0, 0.5]]
 
 
+def test_texture_coordinates_beyond_measure_are_refused() -> None:
+    builder = Builder()
+    builder.mesh(attributes={"TEXCOORD_0": builder.accessor([[0, 0], [2e9, 0], [0, 0]])})
+
+    with pytest.raises(UnusableAssetError, match="texture coordinates beyond"):
+        mesh_of(builder)
+
+
 def test_only_four_sets_of_coordinates_are_read() -> None:
     builder = Builder()
     sets = {f"TEXCOORD_{n}": builder.accessor([[n, 0]] * 3) for n in range(6)}

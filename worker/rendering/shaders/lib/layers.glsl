@@ -29,6 +29,6 @@ void write_layers(SurfacePoint point, vec3 albedo, float opacity) {
     layer_normal = holdable(vec4(point.normal, dot(point.position, view_axis)));
     layer_geometric_normal = holdable(vec4(geometric_normal(point), float(object_id)));
     layer_position = holdable(vec4(eye_position + point.position, float(material_id)));
-    layer_tangent = holdable(vec4(point.tangent.xyz, 0.0));
+    layer_tangent = holdable(vec4(normalize(point.tangent.xyz), 0.0));
     layer_uv = holdable(vec4(point.uv[0], 0.0, 0.0));
 }

@@ -17,7 +17,8 @@ vec4 sample_anisotropic(sampler2D picture, Lookup at) {
     float major = unit * sqrt(major_squared);
     float minor = unit * abs(x.x * y.y - x.y * y.x) / sqrt(major_squared);
     vec2 axis = uu >= vv ? vec2(major_squared - vv, uv) : vec2(uv, major_squared - uu);
-    float axis_length = length(axis);  // 0 for a round footprint, which has no longer axis
+    // A round footprint has no longer axis, and yet rounding may find two probes for it.
+    float axis_length = max(length(axis), 1e-30);
 
     float width = max(max(minor, major / float(MOST_PROBES)), 1.0);
     int probes = usable ? clamp(int(ceil(major / width)), 1, MOST_PROBES) : 1;

@@ -23,3 +23,7 @@ vec4 shade(SurfacePoint point, Surface surface) {
     }
     return vec4(radiance, 1.0);
 }
+
+vec3 albedo(Surface surface) {
+    return surface.base_color;
+}
