@@ -139,6 +139,24 @@ def test_a_part_that_is_not_there_is_a_problem_with_its_place(client, upload):
     assert answer.json()["pointer"] == "/scene/nodes/0/mesh/nodes/0/node"
 
 
+def test_one_of_a_files_scenes_is_drawn_and_others_are_not_there(client, upload, pixels):
+    """The second scene has a smaller square, of a quarter of the area."""
+    nodes = [{"mesh": 0}, {"mesh": 0, "scale": [0.5, 0.5, 0.5]}]
+    content = small_models.glb(nodes=nodes, scenes=[{"nodes": [0]}, {"nodes": [1]}])
+    facts = upload(content, "square.glb")
+    drawn = [
+        int((pixels({"asset": facts["sha256"], "scene": scene})[..., 3] > 0).sum())
+        for scene in (None, 0, 1)
+    ]
+    mesh = {"type": "model", "asset": facts["sha256"], "scene": 2}
+    refused = client.post("/v1/renders", json={"scene": {"nodes": [{"mesh": mesh}]}})
+
+    assert facts["scenes"] == 2
+    assert drawn == [1024, 1024, 256]
+    assert (refused.status_code, refused.json()["code"]) == (409, "model_part_unknown")
+    assert refused.json()["pointer"] == "/scene/nodes/0/mesh/scene"
+
+
 def repacked(embedded):
     """Pack a glTF file with everything inside anew: as GLB, and with everything beside it."""
     document = json.loads(embedded)
