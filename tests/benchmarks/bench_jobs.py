@@ -151,7 +151,7 @@ def _submit(engine, body, limit=60.0):
 
 
 def _finish(engine, job):
-    return asyncio.run(engine.finished("local", job.id, 60))
+    return asyncio.run(engine.finished(job, 60))
 
 
 def _timed(engine, body):
