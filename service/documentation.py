@@ -112,6 +112,7 @@ OBSTACLE_CODES: Final = (
     "nesting_too_deep",
     "too_many_nodes",
     "too_many_maps",
+    "layers_need_exr",
     "over_budget",
 )
 
