@@ -32,7 +32,7 @@ def failures(service: RunningService) -> list[dict[str, str]]:
 def test_the_bare_fuzzer_finds_nothing(service: RunningService, tmp_path: Path) -> None:
     """`st run` and the address of the document, as a stranger would type it.
 
-    Left out are the three operations that take scenes: its systematic phase goes through every field
+    Left out are the three operations that take scenes: its systematic phase goes through each field
     of every texture in every place a surface can wear one, and takes a quarter of an hour on each.
     """
     scenes = [

@@ -27,7 +27,7 @@ def run(request, out, report):
         os._exit(3)
     if seed in (1005, 1006):
         for step in range(24):
-            share = (step + 1) / 25 if seed == 1005 else (step % 5) / 5
+            share = (step + 1) / 25 if seed == 1005 else (step % 7) / 7
             report(share, "draw" if step < 18 else "encode")
             time.sleep(0.05)
     time.sleep(SECONDS.get(seed, 0))

@@ -64,7 +64,7 @@ def test_a_job_is_followed_through_its_stages_to_its_end(client):
 
 @pytest.mark.parametrize("seed", [1005, 1006])
 def test_progress_never_goes_back(client, seed):
-    """Seed 1006 reports 0, .2, .4, .6, .8 and begins again."""
+    """Seed 1006 reports sevenths, from none to six, and begins again."""
     job = submit(client, seed, size=[32, 1])
     told = [event.job["progress"] for event in events(client.get(job["links"]["events"]).text)]
 
