@@ -106,6 +106,9 @@ JSON_BODY_CODES: Final = (
 
 OBSTACLE_CODES: Final = (
     "asset_missing",
+    "asset_kind_mismatch",
+    "asset_file_missing",
+    "model_part_unknown",
     "camera_degenerate",
     "light_degenerate",
     "transform_singular",

@@ -19,6 +19,7 @@ from worker.jobs.errors import (
     DrainingError,
     KeyReusedError,
     QueueFullError,
+    RecordsBusyError,
     SlotError,
     StorageFullError,
     TenantFullError,
@@ -45,6 +46,7 @@ def install(app: FastAPI) -> None:
         StorageFullError: _storage_full,
         OSError: _no_disk,
         SlotError: _no_slot,
+        RecordsBusyError: _no_records,
         ClientDisconnect: _gone,
         Exception: _mistake,
     }
@@ -122,6 +124,11 @@ async def _no_disk(request: Request, error: OSError) -> Response:
 async def _no_slot(_request: Request, error: SlotError) -> Response:
     log.error("no worker: %s", error)
     return ProblemError("not_ready", headers=SOON).response()
+
+
+async def _no_records(_request: Request, error: RecordsBusyError) -> Response:
+    log.error("no records: %s", error)
+    return ProblemError("not_ready", str(error), headers=SOON).response()
 
 
 async def _gone(_request: Request, _error: ClientDisconnect) -> Response:

@@ -73,7 +73,12 @@ class PatientProtocol(H11Protocol):
         if self.loop.time() < self._deadline:
             self._timer = self.loop.call_at(self._deadline, self._look)
             return
-        if self.cycle is None or not self.cycle.response_started:
+        is_answering = (
+            self.cycle is not None
+            and self.cycle.response_started
+            and not self.cycle.response_complete
+        )
+        if not is_answering:
             self.transport.write(_refusal())
         self.transport.close()
 

@@ -17,12 +17,13 @@ from sqlalchemy import Connection, Engine, create_engine, event
 from sqlalchemy.exc import DatabaseError, OperationalError
 
 from worker.jobs.child import FULL_DISK
-from worker.jobs.errors import RecordsError, StorageFullError
+from worker.jobs.errors import RecordsBusyError, RecordsError, StorageFullError
 
+PATIENCE_SECONDS: Final = 10
 PRAGMAS: Final = (
     "journal_mode = WAL",
     "synchronous = NORMAL",
-    "busy_timeout = 10000",
+    f"busy_timeout = {1000 * PATIENCE_SECONDS}",
     "foreign_keys = ON",
 )
 # A quota or a limit of file sizes is an input or output error to SQLite, which knows ENOSPC only.
@@ -72,7 +73,7 @@ class Database:
     @contextmanager
     def reading(self) -> Iterator[Connection]:
         """One consistent view of the records."""
-        with _no_room(), self._readers.begin() as connection:
+        with _told_apart(), self._readers.begin() as connection:
             yield connection
 
     @contextmanager
@@ -84,12 +85,18 @@ class Database:
                 undoes it; no crash of a process does.
 
         Raises:
+            RecordsBusyError: another program does not let go of them; nothing was changed.
             StorageFullError: the disk is full; nothing was changed, unless only the flush did not
                 succeed: then a power cut may undo what was.
         """
-        with _no_room():
-            with self._write_lock, self._writer.begin() as connection:
-                yield connection
+        with _told_apart():
+            if not self._write_lock.acquire(timeout=PATIENCE_SECONDS):
+                raise RecordsBusyError("too many write to the records")
+            try:
+                with self._writer.begin() as connection:
+                    yield connection
+            finally:
+                self._write_lock.release()
             for hear in self._heard:
                 hear()
             if durably:
@@ -128,12 +135,16 @@ class Database:
 
 
 @contextmanager
-def _no_room() -> Iterator[None]:
+def _told_apart() -> Iterator[None]:
+    """Give the errors names that are nobody's mistake."""
     try:
         yield
     except OperationalError as error:
-        if getattr(error.orig, "sqlite_errorcode", None) in NO_ROOM:
+        code = getattr(error.orig, "sqlite_errorcode", None)
+        if code in NO_ROOM:
             raise StorageFullError("the disk is full") from error
+        if code == sqlite3.SQLITE_BUSY:
+            raise RecordsBusyError("another program holds the records") from error
         raise
 
 

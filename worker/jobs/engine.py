@@ -142,14 +142,11 @@ class EmbeddedEngine:
         """
         start_forkserver()
         self._lock = lock_folder(self._data)
-        self._database.check()
-        upgrade(self._database)
-        self._claims.recover()
-        self._run_times.recall(self._database)
-        idempotency.sweep(self._database)
-        self._housekeeping.check()
-        keep_only(Path(self._environment["NUMBA_CACHE_DIR"]))
-        make_folder(Path(self._environment["MESA_SHADER_CACHE_DIR"]))
+        try:
+            self._take_over()
+        except BaseException:
+            self._let_go()
+            raise
         for thread in self._threads:
             thread.start()
         self._housekeeping.start()
@@ -174,9 +171,7 @@ class EmbeddedEngine:
         self._measuring.close()
         self._housekeeping.stop()
         self.watch.close()
-        self._database.close()
-        if self._lock is not None:
-            self._lock.close()
+        self._let_go()
 
     def submit(
         self,
@@ -265,14 +260,18 @@ class EmbeddedEngine:
         """The result of a succeeded job; None when it was evicted."""
         return self._results.find(job.work_id)
 
-    def measure(self, path: Path, time_limit_seconds: float) -> dict[str, Any]:
+    def measure(
+        self, path: Path, time_limit_seconds: float, media_type: str = ""
+    ) -> dict[str, Any]:
         """The facts of a file, found in a child; callable from any thread.
+
+        `media_type` is what the uploader calls it, for files whose content does not tell.
 
         Raises:
             MeasuringError: the file is unusable; `failure` says why.
             SlotError: no child could be started.
         """
-        return self._measuring.measure(path, time_limit_seconds)
+        return self._measuring.measure(path, time_limit_seconds, media_type)
 
     def ready(self) -> Readiness:
         """Whether work would be done."""
@@ -302,6 +301,22 @@ class EmbeddedEngine:
                 free_bytes=shutil.disk_usage(self._data).free,
             ),
         )
+
+    def _take_over(self) -> None:
+        """Bring records and files in step with each other and with this version."""
+        self._database.check()
+        upgrade(self._database)
+        self._claims.recover()
+        self._run_times.recall(self._database)
+        idempotency.sweep(self._database)
+        self._housekeeping.check()
+        keep_only(Path(self._environment["NUMBA_CACHE_DIR"]))
+        make_folder(Path(self._environment["MESA_SHADER_CACHE_DIR"]))
+
+    def _let_go(self) -> None:
+        self._database.close()
+        if self._lock is not None:
+            self._lock.close()
 
     def _require_open(self) -> None:
         if self._draining.is_set():

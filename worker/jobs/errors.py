@@ -8,6 +8,7 @@ JobsError
 ├── KeyReusedError        an idempotency key came with another body before
 ├── DataFolderInUseError  another service owns the data folder
 ├── RecordsError          the records cannot be read: damaged, or of a newer version
+├── RecordsBusyError      another program holds the records' lock, a backup say
 ├── SlotError             a child could not be started or warmed
 └── MeasuringError        an upload cannot be used; carries the failure as data
 """
@@ -54,6 +55,10 @@ class DataFolderInUseError(JobsError):
 
 class RecordsError(JobsError):
     """The records were damaged, or written by a newer version."""
+
+
+class RecordsBusyError(JobsError):
+    """Somebody else writes to the records, and does not stop."""
 
 
 class SlotError(JobsError):

@@ -10,7 +10,7 @@ from sqlalchemy.exc import SQLAlchemyError
 
 from worker.jobs.assets import Assets
 from worker.jobs.database import Database
-from worker.jobs.errors import StorageFullError
+from worker.jobs.errors import JobsError
 from worker.jobs.meters import Meters
 from worker.jobs.results import Results
 from worker.jobs.schema import work
@@ -74,7 +74,7 @@ class Housekeeping:
         while not self._stopping.wait(INTERVAL_SECONDS):
             try:
                 self.evict()
-            except (OSError, SQLAlchemyError, StorageFullError):
+            except (OSError, SQLAlchemyError, JobsError):
                 log.exception("could not evict results")
 
     def _record(self, work_ids: list[str]) -> None:

@@ -35,7 +35,8 @@ class Results:
     """A folder of result files, named by the id of the work; usable from any thread.
 
     The least recently used go first. When a file was last used is its time of modification, so that
-    it is known after a restart; while the service runs, nobody's clock matters.
+    the order is known after a restart. Ages are told by a clock that never jumps, and while the
+    service does not run nothing ages: a wrong clock at the start takes nothing away.
     """
 
     def __init__(self, folder: Path, limits: Limits | None = None) -> None:
@@ -67,7 +68,6 @@ class Results:
             The ids of those that are missing now.
         """
         sweep_halves(self._folder)
-        wall, now = time.time(), time.monotonic()
         found = []
         with os.scandir(self._folder) as entries:
             for entry in entries:
@@ -76,9 +76,11 @@ class Results:
                     found.append((facts.st_mtime, entry.name, facts.st_size))
                 else:
                     Path(entry).unlink()
+        now = time.monotonic()
+        newest = max(found, default=(0.0, "", 0))[0]
         with self._lock:
             for modified, name, length in sorted(found):
-                self._files[name] = _File(length, now - max(0.0, wall - modified))
+                self._files[name] = _File(length, now - (newest - modified))
                 self._bytes += length
         return sorted(expected.keys() - self._files.keys())
 

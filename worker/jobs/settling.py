@@ -5,13 +5,13 @@ import threading
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
+from typing import Final, TypeVar
 
 from sqlalchemy.exc import SQLAlchemyError
 
 from worker.jobs.assets import Assets
 from worker.jobs.claims import Claim, Claims
-from worker.jobs.errors import StorageFullError, failure
+from worker.jobs.errors import RecordsBusyError, StorageFullError, failure
 from worker.jobs.line import Line
 from worker.jobs.meters import Meters
 from worker.jobs.results import Results
@@ -19,6 +19,9 @@ from worker.jobs.run_times import RunTimes
 from worker.jobs.slot import Outcome
 
 CRASH: Final = failure("worker_lost", "the worker process was lost")
+STOPPED: Final = Outcome("crashed", failure=CRASH)
+
+Answer = TypeVar("Answer")
 
 log = logging.getLogger(__name__)
 
@@ -51,10 +54,14 @@ def settle(
 ) -> Outcome:
     """Publish and record how an attempt ended; answers how it really did."""
     if outcome.status == "ok":
-        outcome = _publish(desk, claim, half, outcome, fingerprint)
+        made = outcome
+        outcome = (
+            _insisting(lambda: _publish(desk, claim, half, made, fingerprint), stopping) or STOPPED
+        )
     if outcome.status != "ok":
+        ended = outcome
         half.unlink(missing_ok=True)  # it may be what fills the disk that the record needs
-        _until_recorded(lambda: _record(desk, claim, outcome, stopping), stopping)
+        _insisting(lambda: _record(desk, claim, ended, stopping), stopping)
     return outcome
 
 
@@ -71,6 +78,8 @@ def _publish(
             fingerprint,
             lambda: results.publish(half, claim.work_id),
         )
+    except RecordsBusyError:
+        raise
     except StorageFullError as error:
         problem = failure("storage_full", str(error))
     except (OSError, SQLAlchemyError):
@@ -95,12 +104,15 @@ def _record(desk: Desk, claim: Claim, outcome: Outcome, stopping: threading.Even
         claims.fail(claim, problem)
 
 
-def _until_recorded(record: Callable[[], None], stopping: threading.Event) -> None:
-    """Insist, since a full disk may be emptied; what stays unrecorded is redone at restart."""
+def _insisting(record: Callable[[], Answer], stopping: threading.Event) -> Answer | None:
+    """Try until it is recorded, since a full disk may be emptied and a lock released.
+
+    None when the engine stops first: what stays unrecorded is done again after the next start.
+    """
     while True:
         try:
             return record()
-        except (SQLAlchemyError, StorageFullError):
+        except (SQLAlchemyError, StorageFullError, RecordsBusyError):
             log.exception("could not record an outcome")
             if stopping.wait(1.0):
                 return None

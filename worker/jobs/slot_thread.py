@@ -13,7 +13,7 @@ from sqlalchemy.exc import SQLAlchemyError
 
 from worker.jobs.assets import mentioned_in
 from worker.jobs.claims import Claim
-from worker.jobs.errors import SlotError, StorageFullError
+from worker.jobs.errors import JobsError
 from worker.jobs.log_lines import telling
 from worker.jobs.meters import technique
 from worker.jobs.replacement import Replacement
@@ -105,7 +105,7 @@ class SlotThread(threading.Thread):
             except Exception as error:
                 if self._stopping.is_set():
                     break
-                is_a_bug = not isinstance(error, SlotError)
+                is_a_bug = not isinstance(error, JobsError)
                 log.error("%s pauses %.0f s: %s", self.name, pause, error, exc_info=is_a_bug)
                 self._stopping.wait(pause)
                 pause = min(2 * pause, LONGEST_PAUSE_SECONDS)
@@ -189,7 +189,7 @@ class SlotThread(threading.Thread):
             furthest = max(furthest, progress)
             if time.monotonic() >= next_report:
                 next_report = time.monotonic() + REPORT_SECONDS
-                with suppress(SQLAlchemyError, StorageFullError):  # progress is only told
+                with suppress(SQLAlchemyError, JobsError):  # progress is only told
                     self._desk.claims.report(claim, furthest, stage)
 
         try:

@@ -17,6 +17,7 @@ from typing import Final
 from sqlalchemy.exc import SQLAlchemyError
 
 from worker.jobs.bell import Bell
+from worker.jobs.errors import JobsError
 from worker.jobs.job import FINAL_STATES, Job
 
 LEAST_PAUSE_SECONDS: Final = 0.05
@@ -154,7 +155,7 @@ class Watch:
             return
         try:
             found = self._look(asked)
-        except SQLAlchemyError:
+        except (SQLAlchemyError, JobsError):
             log.exception("could not look at the followed jobs")
             return
         for job_id in asked:
