@@ -55,6 +55,9 @@ class ModelFacts(_Facts):
     materials: Names = Field(description="Its materials by index; an empty name where it has none.")
     nodes: Names = Field(description="Its nodes by index.")
     cameras: Names = Field(description="Its cameras by index.")
+    scenes: Count | None = Field(
+        default=None, description="How many scenes it has, where its format has scenes."
+    )
     lights: Count = Field(description="How many lights it brings.")
     texels: Count = Field(description="Pixels of the pictures inside it.")
     files: Names = Field(description="Names of the files it needs beside it.")

@@ -4,17 +4,24 @@ The constants were measured on two cores of a 2.5 GHz server processor and round
 only has to tell a second from a minute and a megabyte from a gigabyte.
 """
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TypeAlias
 
-from api_schemas.assets import AssetFacts, ImageFacts, ModelFacts
+from api_schemas.assets import AssetFacts, ImageFacts
+from api_schemas.bodies import (
+    BYTES_PER_KEPT_TEXEL,
+    BYTES_PER_TEXEL,
+    SECONDS_PER_TEXEL,
+    Body,
+    body,
+)
 from api_schemas.camera import Camera, FramedCamera, PosedCamera
 from api_schemas.cost import Cost
 from api_schemas.coverage import coverage, stand_in
 from api_schemas.families import SurfaceSpec, TextureSpec
-from api_schemas.geometry import IDENTITY, Affine, affine
+from api_schemas.geometry import IDENTITY, Affine, Vector3, affine
 from api_schemas.maps import ColorMap, NormalMap, NumberMap
-from api_schemas.meshes import Mesh
 from api_schemas.model_mesh import ModelMesh
 from api_schemas.output_cost import samples_of, sampling, tiles_of, writing
 from api_schemas.requests import RenderRequest, Request
@@ -31,17 +38,15 @@ SECONDS_PER_MAP_SAMPLE = {
     "anisotropic": 1.5e-7,
 }
 SECONDS_TO_COMPILE_A_MAP = 0.12
-SECONDS_PER_TRIANGLE = 4e-7
 SECONDS_PER_DRAWN_TRIANGLE = 5e-8
 SECONDS_PER_DRAW = 2e-4
 SECONDS_PER_SORTED_TRIANGLE = 3e-7
-SECONDS_PER_TEXEL = 1e-7
-BYTES_PER_TEXEL = 64
-BYTES_PER_KEPT_TEXEL = 24
-BYTES_PER_TRIANGLE = 200
+MAPS_OF_A_MATERIAL = 3
+"""Of a material of a model, where facts tell of pictures at all: colour, normals and the rest."""
+LIGHTS_OF_A_STUDIO = 2
 MAPS = ColorMap | NumberMap | NormalMap
-_Drawn: TypeAlias = tuple[Mesh, SurfaceSpec | None, Affine | None]
-"""A mesh, its surface, and where it stands."""
+_Drawn: TypeAlias = tuple[Node, Affine | None, Body]
+"""A node, where the middle of its mesh stands, and what that mesh is."""
 
 
 def estimate(request: Request, facts: Mapping[str, AssetFacts]) -> Cost:
@@ -79,29 +84,44 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
     samples, tiles = samples_of(request.output), tiles_of(request.output)
     cost = sampling(request.output)
     scene = request.scene
-    drawn = list(_drawn(scene.nodes, IDENTITY))
+    drawn = [
+        (node, _moved(placed, found.middle), found)
+        for node, placed in _placed(scene.nodes, IDENTITY)
+        if node.mesh is not None and (found := body(node.mesh, facts)) is not None
+    ]
     camera = _known_camera(scene.camera, drawn, width / height)
-    lighting = SECONDS_PER_SHADED_SAMPLE + len(scene.lights or []) * SECONDS_PER_LIGHT_SAMPLE
+    shining = (
+        max(LIGHTS_OF_A_STUDIO, sum(found.lights for _, _, found in drawn))
+        if scene.lights is None
+        else len(scene.lights)
+    )
+    lighting = SECONDS_PER_SHADED_SAMPLE + shining * SECONDS_PER_LIGHT_SAMPLE
     textures = _WornTextures(facts)
-    cost += textures.cost(_maps(scene.background))
-    cost += Cost(width * height * _seconds_per_sample(_maps(scene.background)))
+    background = _maps(scene.background)
+    cost += textures.cost(background)
+    cost += Cost(samples * _seconds_per_sample(background))
     made = set()
-    for mesh, surface, placed in drawn:
-        if isinstance(mesh, ModelMesh):
-            cost += _model(mesh, facts, samples, tiles, lighting)
-            continue
-        triangles = mesh.triangles
-        cost += Cost(tiles * (SECONDS_PER_DRAW + triangles * SECONDS_PER_DRAWN_TRIANGLE))
-        if (key := mesh.model_dump_json()) not in made:
-            made.add(key)
-            cost += Cost(triangles * SECONDS_PER_TRIANGLE, triangles * BYTES_PER_TRIANGLE)
-        maps = _maps(surface)
-        covered = coverage(mesh.reach, placed, camera, width / height)
-        if surface is not None and surface.alpha_mode == "blend":
+    for node, placed, found in drawn:
+        drawing = found.draws * SECONDS_PER_DRAW + found.pieces * SECONDS_PER_DRAWN_TRIANGLE
+        cost += Cost(tiles * drawing)
+        if found.key not in made:
+            made.add(found.key)
+            cost += found.making
+            cost += Cost(MAPS_OF_A_MATERIAL * SECONDS_TO_COMPILE_A_MAP * found.pictures)
+        shown = node.surface or node.mesh
+        surfaces = [part for _, part in parts(shown) if isinstance(part, SurfaceSpec)]
+        maps = [_maps(surface) for surface in surfaces]
+        for worn in maps:
+            cost += textures.cost(worn)
+        own = MAPS_OF_A_MATERIAL * found.pictures * SECONDS_PER_MAP_SAMPLE["anisotropic"]
+        shading = lighting + max([own, *map(_seconds_per_sample, maps)])
+        # The parts of one model hide each other: few are seen one behind the other.
+        covered = math.sqrt(found.draws)
+        covered *= coverage(found.reach, placed, camera, width / height)
+        if any(surface.alpha_mode == "blend" for surface in surfaces):
             covered *= 2  # what is behind its front is shaded too
-            cost += Cost(triangles * SECONDS_PER_SORTED_TRIANGLE)
-        cost += Cost(samples * covered * (lighting + _seconds_per_sample(maps)))
-        cost += textures.cost(maps)
+            cost += Cost(found.pieces * SECONDS_PER_SORTED_TRIANGLE)
+        cost += Cost(samples * covered * shading)
     # Equal things are made once, one after another, and kept: only the largest counts twice.
     return cost + Cost(bytes=textures.making)
 
@@ -111,18 +131,25 @@ def _maps(value: object) -> list[MAPS]:
 
 
 def _seconds_per_sample(maps: Sequence[MAPS]) -> float:
+    """Return the seconds that looking up all of them once takes."""
     return sum(SECONDS_PER_MAP_SAMPLE[item.filter] for item in maps)
 
 
+def _moved(placed: Affine | None, middle: Vector3) -> Affine | None:
+    """Return a place whose origin is what was the point `middle`."""
+    if placed is None:
+        return None
+    return placed @ Affine(IDENTITY.x, IDENTITY.y, IDENTITY.z, middle)
+
+
 def _known_camera(camera: Camera | None, drawn: Sequence[_Drawn], aspect: float) -> Camera | None:
-    """Return the eye, or one about where it will be, unless uploaded models decide that."""
+    """Return the eye, or one about where it will be, unless an uploaded model brings it."""
     if isinstance(camera, PosedCamera):
         return camera
-    balls = [(mesh.reach, at) for mesh, _, at in drawn if not isinstance(mesh, ModelMesh)]
-    if len(balls) < len(drawn):
+    if any(isinstance(node.mesh, ModelMesh) for node, _, _ in drawn) and camera is None:
         return None
     framed = camera if isinstance(camera, FramedCamera) else FramedCamera(type="framed")
-    return stand_in(framed, balls, aspect)
+    return stand_in(framed, [(found.reach, at) for _, at, found in drawn], aspect)
 
 
 class _WornTextures:
@@ -151,29 +178,9 @@ class _WornTextures:
         return cost
 
 
-def _model(
-    mesh: ModelMesh, facts: Mapping[str, AssetFacts], samples: int, tiles: int, lighting: float
-) -> Cost:
-    found = facts.get(mesh.asset)
-    if not isinstance(found, ModelFacts):
-        return Cost()
-    pictures = [facts.get(asset) for asset in mesh.files.values()]
-    texels = found.texels + sum(
-        picture.width * picture.height for picture in pictures if isinstance(picture, ImageFacts)
-    )
-    return Cost(
-        seconds=tiles * found.triangles * SECONDS_PER_DRAWN_TRIANGLE
-        + found.triangles * SECONDS_PER_TRIANGLE
-        + texels * SECONDS_PER_TEXEL
-        + samples * (lighting + SECONDS_PER_MAP_SAMPLE["anisotropic"]),
-        bytes=found.triangles * BYTES_PER_TRIANGLE + texels * (BYTES_PER_TEXEL),
-    )
-
-
-def _drawn(nodes: Sequence[Node], parent: Affine | None) -> Iterator[_Drawn]:
+def _placed(nodes: Sequence[Node], parent: Affine | None) -> Iterator[tuple[Node, Affine | None]]:
     for node in nodes:
         own = affine(node.transform)
         placed = parent @ own if parent and own else None
-        if node.mesh is not None:
-            yield node.mesh, node.surface, placed
-        yield from _drawn(node.children, placed)
+        yield node, placed
+        yield from _placed(node.children, placed)

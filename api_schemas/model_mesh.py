@@ -27,14 +27,18 @@ Part = Annotated[
 class MaterialChange(Schema):
     """Another surface in the place of one of the model's materials."""
 
-    material: Part = Field(description="Which material, by name or by index.")
+    material: Part = Field(
+        description="Which material: all of this name, or the one at this index, from 0."
+    )
     surface: Surface = Field(description="What it becomes.")
 
 
 class NodeChange(Schema):
     """A change to one of the model's nodes."""
 
-    node: Part = Field(description="Which node, by name or by index.")
+    node: Part = Field(
+        description="Which node: all of this name, or the one at this index, from 0."
+    )
     visible: bool = Field(
         default=True, description="Whether the node's own mesh is drawn; its children still are."
     )
@@ -54,14 +58,17 @@ class ModelMesh(Schema):
     files: dict[Annotated[str, Field(min_length=1, max_length=256)], Sha256] = Field(
         default={},
         max_length=256,
-        description="The uploads that the model speaks of by name: buffers, pictures, materials.",
+        description="The uploads that the model speaks of: its buffers, pictures and material "
+        "libraries, by the names that its upload's `files` told. More than it needs may be given.",
     )
     scene: Annotated[int, Field(ge=0, le=65535), WHOLE] | None = Field(
         default=None, description="Which of the file's scenes; the one it names as its own without."
     )
     materials: Annotated[list[MaterialChange], Field(max_length=256)] = Field(
-        default=[], description="Materials to be replaced."
+        default=[],
+        description="Materials to be replaced; of two changes of the same one the later counts.",
     )
     nodes: Annotated[list[NodeChange], Field(max_length=256)] = Field(
-        default=[], description="Nodes to be changed."
+        default=[],
+        description="Nodes to be changed; of two changes of the same one the later counts.",
     )

@@ -7,6 +7,8 @@ from pydantic import Field
 from api_schemas.base import NonNegative, Schema
 
 Code = Annotated[str, Field(pattern="^[a-z][a-z0-9_]*$", max_length=64)]
+PROBLEMS_MAX = 100
+"""How much is told at once."""
 Pointer = Annotated[str, Field(max_length=4096)]
 
 
@@ -50,7 +52,7 @@ class Problem(Schema):
     pointer: Pointer | None = Field(
         default=None, description="JSON pointer into the request body, where one value is to blame."
     )
-    problems: Annotated[list[Obstruction], Field(max_length=100)] | None = Field(
+    problems: Annotated[list[Obstruction], Field(max_length=PROBLEMS_MAX)] | None = Field(
         default=None, description="Everything that is wrong, as far as one can tell at once."
     )
     estimate: CostFigures | None = Field(

@@ -4,14 +4,15 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TypeAlias
 
+from api_schemas.asset_use import misuses
 from api_schemas.assets import AssetFacts
 from api_schemas.cost import Cost
 from api_schemas.digest import digest
 from api_schemas.estimate import estimate
-from api_schemas.feasibility import assets_in, obstacles
+from api_schemas.feasibility import Obstacle, assets_in, obstacles
 from api_schemas.normalise import formatted, normalise
 from api_schemas.output import Format
-from api_schemas.problems import CostFigures, Obstruction
+from api_schemas.problems import PROBLEMS_MAX, CostFigures, Obstruction
 from api_schemas.requests import Kind, RenderRequest, Request
 from service.problems import ProblemError
 
@@ -32,20 +33,20 @@ class Finding:
 def examine(request: Request, file_format: Format, find_facts: FindFacts, limit: Cost) -> Finding:
     """Find out whether a request can be done, what it takes, and what it is called."""
     request = formatted(request, file_format)
+    assets = assets_in(request)
+    known = {sha256: find_facts(sha256) for sha256 in {sha256 for _, sha256 in assets}}
+    facts = {sha256: found for sha256, found in known.items() if found is not None}
+    whole = len(facts) == len(known)
+    missing = (
+        Obstacle("asset_missing", pointer, "no such asset has been uploaded")
+        for pointer, sha256 in assets
+        if sha256 not in facts
+    )
+    found = (*obstacles(request), *missing, *misuses(request, facts))
     problems = [
         Obstruction(code=item.code, pointer=item.pointer, message=item.message)
-        for item in obstacles(request)
+        for item in found[: PROBLEMS_MAX - 1]
     ]
-    facts = {}
-    whole = True
-    for pointer, sha256 in assets_in(request):
-        found = find_facts(sha256)
-        if found is None:
-            whole = False
-            message = "no such asset has been uploaded"
-            problems.append(Obstruction(code="asset_missing", pointer=pointer, message=message))
-        else:
-            facts[sha256] = found
     cost = estimate(request, facts)
     if cost.exceeds(limit):
         message = (

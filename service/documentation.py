@@ -106,12 +106,16 @@ JSON_BODY_CODES: Final = (
 
 OBSTACLE_CODES: Final = (
     "asset_missing",
+    "asset_kind_mismatch",
+    "asset_file_missing",
+    "model_part_unknown",
     "camera_degenerate",
     "light_degenerate",
     "transform_singular",
     "nesting_too_deep",
     "too_many_nodes",
     "too_many_maps",
+    "layers_need_exr",
     "over_budget",
 )
 

@@ -5,6 +5,7 @@ This is the executor that the door in `worker.jobs` knows by name and loads in i
 
 import hashlib
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -34,7 +35,7 @@ def warm(report: Report) -> dict[str, Any]:
     report(0.0, "models")
     models.warm()
     synthesis.warm(lambda share, name: report(0.1 + 0.4 * share, name))
-    renderer.warm(lambda share, name: report(0.5 + 0.5 * share, name))
+    renderer.warm(lambda share, name: report(0.5 + 0.5 * share, name), _maker(_no_picture))
     report(1.0, "ready")
     return {"fingerprint": fingerprint()}
 
@@ -68,7 +69,7 @@ def run(request: dict[str, Any], out: Path, report: Report) -> dict[str, Any]:
         # A band is written while the next one is waiting to be drawn.
         with stages.stage("render", 0.02, 0.98) as progress:
             drawn = renderer.render(
-                body.scene, body.output, _maker(pictures), uploads.read, progress
+                body.scene, body.output, _maker(pictures.read), uploads.read, progress
             )
             bands = Watch(drawn.bands)
             start = time.perf_counter()
@@ -109,13 +110,17 @@ def _find(body: Request, assets: Path) -> None:
             raise AssetMissingError("the asset is not stored any more", pointer)
 
 
-def _maker(pictures: UploadedPictures) -> TextureMaker:
+def _maker(read: Callable[[ImageSpec, Meaning], Image]) -> TextureMaker:
     """Make textures for surfaces: pictures at their own size, others at their technique's."""
 
     def make(spec: TextureSpec, meaning: Meaning) -> Image:
         if isinstance(spec, ImageSpec):
-            return pictures.read(spec, meaning)
+            return read(spec, meaning)
         size = (spec.surface_side, spec.surface_side)
-        return synthesis.synthesize(spec, size, pictures.read, meaning)
+        return synthesis.synthesize(spec, size, read, meaning)
 
     return make
+
+
+def _no_picture(spec: ImageSpec, meaning: Meaning) -> Image:
+    raise AssetMissingError("there are no uploads to warm up with")

@@ -1,4 +1,4 @@
-"""Uploaded pictures, named by the SHA-256 of their bytes."""
+"""Uploaded pictures and models, named by the SHA-256 of their bytes."""
 
 import pathlib
 import re
@@ -10,7 +10,7 @@ from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
 from starlette.responses import Response
 
-from api_schemas.assets import AssetFacts
+from api_schemas.assets import ASSET_FACTS, AssetFacts
 from api_schemas.base import SHA256_PATTERN
 from service.documentation import BINARY, ETAG, IF_HEADERS, LOCATION, Responses, header, problems
 from service.engine_access import Configuration, Engine, asset_facts
@@ -18,19 +18,36 @@ from service.negotiation import JSON, quality, require_accepted
 from service.problems import ProblemError
 from service.stored_files import names, stored_file
 from service.tenants import Tenant
-from service.uploads import FIELD, FORM, measured, passing, stored, upload
+from service.uploads import (
+    BUFFER,
+    FIELD,
+    FORM,
+    may_be_more,
+    measured_and_kept,
+    passing,
+    stored,
+    upload,
+)
 from worker.jobs.queue import JobQueue
 
 router = APIRouter(prefix="/v1/assets", tags=["assets"])
 
 WELL_FORMED: Final = re.compile(SHA256_PATTERN)
-MEDIA_TYPES: Final = (
-    "image/png",
-    "image/x-exr",
-    "image/jpeg",
-    "image/tiff",
-    "image/vnd.radiance",
-)
+SUFFIXES: Final = {
+    "image/png": "png",
+    "image/x-exr": "exr",
+    "image/jpeg": "jpg",
+    "image/tiff": "tif",
+    "image/vnd.radiance": "hdr",
+    "model/gltf-binary": "glb",
+    "model/gltf+json": "gltf",
+    "model/obj": "obj",
+    "model/mtl": "mtl",
+    "model/ply": "ply",
+    "model/stl": "stl",
+    BUFFER: "bin",
+}
+"""What is taken, and how its files' names end when they are fetched."""
 Name = Annotated[
     str,
     Path(
@@ -42,7 +59,7 @@ BODY: Final = {
     "requestBody": {
         "required": True,
         "content": {
-            **{name: {"schema": BINARY} for name in (*MEDIA_TYPES, "application/octet-stream")},
+            **{name: {"schema": BINARY} for name in (*SUFFIXES, "application/octet-stream")},
             FORM: {
                 "schema": {
                     "type": "object",
@@ -58,7 +75,7 @@ LINKS: Final = {
     name: {"operationId": operation, "parameters": {"sha256": "$response.body#/sha256"}}
     for name, operation in (("self", "get_asset"), ("delete", "delete_asset"))
 }
-CONTENT: Final = {name: {"schema": BINARY} for name in MEDIA_TYPES}
+CONTENT: Final = {name: {"schema": BINARY} for name in SUFFIXES}
 FOUND: Final[Responses] = {
     200: {
         "description": "The file; or, where Accept prefers JSON, what was measured of it.",
@@ -80,7 +97,7 @@ FOUND: Final[Responses] = {
     "",
     status_code=201,
     operation_id="create_asset",
-    summary="Upload a picture",
+    summary="Upload a picture or a model",
     responses={
         200: {
             "description": "It had been uploaded before.",
@@ -112,26 +129,35 @@ FOUND: Final[Responses] = {
 async def create_asset(
     request: Request, engine: Engine, settings: Configuration, tenant: Tenant
 ) -> Response:
-    """Takes PNG, EXR, JPEG, TIFF and Radiance files, told by their content.
+    """Takes pictures (PNG, EXR, JPEG, TIFF, Radiance) and models (GLB, glTF, OBJ, MTL, PLY, STL).
 
-    The body is the file itself, or a form with one file field called `file`.
+    Their content tells what they are. Only the buffer beside a glTF file, which may hold anything,
+    has to be called `application/gltf-buffer`. The body is the file itself, or a form with one file
+    field called `file`.
     """
     with passing(engine.assets.new_upload()) as path:
-        sha256 = await stored(upload(request, settings.upload_limit_bytes), path)
-        facts = await run_in_threadpool(asset_facts, engine, tenant, sha256)
-        status = 200
-        if facts is None:
-            limit = settings.measure_limit_seconds
-            facts = await to_thread.run_sync(
-                measured, engine, path, sha256, limit, limiter=request.app.state.measuring
-            )
-            await run_in_threadpool(
-                engine.assets.put, tenant, path, sha256, facts.model_dump(mode="json")
-            )
-            status = 201
+        async with upload(request, settings.upload_limit_bytes) as sent:
+            sha256 = await stored(sent.content, path)
+        known = await run_in_threadpool(asset_facts, engine, tenant, sha256)
+        facts = known
+        if known is None or may_be_more(known, sent.media_type):
+            try:
+                facts = await to_thread.run_sync(
+                    measured_and_kept,
+                    engine,
+                    tenant,
+                    path,
+                    sha256,
+                    sent.media_type,
+                    settings.measure_limit_seconds,
+                    limiter=request.app.state.measuring,
+                )
+            except ProblemError:
+                if known is None:
+                    raise
     return Response(
-        facts.model_dump_json(),
-        status_code=status,
+        ASSET_FACTS.dump_json(facts),
+        status_code=201 if known is None else 200,
         headers={"Location": f"/v1/assets/{sha256}", "Cache-Control": "no-store"},
         media_type=JSON,
     )
@@ -162,10 +188,11 @@ def get_asset(request: Request, sha256: Name, engine: Engine, tenant: Tenant) ->
         headers = {"ETag": etag, "Vary": "Accept", "Cache-Control": "private, no-cache"}
         if names(request.headers.get("if-none-match"), etag):
             return Response(status_code=304, headers=headers)
-        return Response(facts.model_dump_json(), headers=headers, media_type=JSON)
+        return Response(ASSET_FACTS.dump_json(facts), headers=headers, media_type=JSON)
     require_accepted(request, facts.media_type)
+    suffix = SUFFIXES.get(facts.media_type, "bin")
     headers = {
-        "Content-Disposition": f'attachment; filename="{sha256[:12]}.{facts.format}"',
+        "Content-Disposition": f'attachment; filename="{sha256[:12]}.{suffix}"',
         "Vary": "Accept",
     }
     try:

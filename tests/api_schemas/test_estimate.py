@@ -2,13 +2,14 @@ import itertools
 import json
 from typing import get_args
 
-from api_schemas.assets import ImageFacts
+from api_schemas.assets import ASSET_FACTS, ImageFacts
 from api_schemas.cost import Cost
 from api_schemas.estimate import estimate
 from api_schemas.output import Layer
 from api_schemas.requests import REQUESTS, RenderRequest, TextureRequest
 from service.settings import Settings
 from tests.examples import examples
+from tests.model_facts import model_facts
 
 _, CAN = examples()["soda_can"]
 
@@ -208,3 +209,69 @@ def test_one_mesh_in_many_places_is_built_once():
     ball = {"mesh": {"type": "sphere", "segments": 1000, "rings": 1000}}
 
     assert estimate(scene([ball] * 50), {}).bytes < 1.1 * estimate(scene([ball]), {}).bytes
+
+
+def model(count=1, camera=None, **known):
+    """A scene with a model in many places, and what is known of the model."""
+    told = {**model_facts(**known), "sha256": "d" * 64, "bytes": 1}
+    nodes = [{"mesh": {"type": "model", "asset": "d" * 64}}] * count
+    body = {"scene": {"nodes": nodes, "camera": camera}, "output": {"size": [512, 512]}}
+    return RenderRequest.model_validate(body), {"d" * 64: ASSET_FACTS.validate_python(told)}
+
+
+def test_one_model_in_many_places_is_read_once():
+    known = {"triangles": 10**6, "vertices": 10**6}
+
+    assert estimate(*model(50, **known)).bytes < 1.1 * estimate(*model(1, **known)).bytes
+
+
+def test_a_model_of_a_million_triangles_is_within_the_limits_and_one_of_a_billion_is_not():
+    million = estimate(*model(triangles=10**6, vertices=10**6))
+    billion = estimate(*model(triangles=10**9, vertices=10**9))
+
+    assert 0.1 < million.seconds < 10
+    assert 1e8 < million.bytes < 2 << 30
+    assert billion.seconds > 60
+    assert billion.bytes > 2 << 30
+
+
+def test_pictures_in_a_model_and_beside_it_are_counted():
+    within = estimate(*model(texels=4096**2)).bytes - estimate(*model()).bytes
+    request, facts = model()
+    mesh = request.scene.nodes[0].mesh.model_copy(update={"files": {"a.png": "a" * 64}})
+    node = request.scene.nodes[0].model_copy(update={"mesh": mesh})
+    scene = request.scene.model_copy(update={"nodes": [node]})
+    wearing = request.model_copy(update={"scene": scene})
+    beside = estimate(wearing, facts | {"a" * 64: upload("a", 4096)}).bytes
+
+    assert within >= 4096**2 * 16 * 4 / 3  # float32, four channels, and all smaller levels
+    assert beside - estimate(request, facts).bytes >= within
+
+
+def test_a_model_far_from_its_origin_is_seen_where_it_is():
+    def seconds(z):
+        bounds = {"bounds_min": [-1.0, -1.0, z], "bounds_max": [1.0, 1.0, z + 2.0]}
+        camera = {"type": "perspective", "pose": {"eye": [0, 0, 1000], "target": [0, 0, 999]}}
+        return estimate(*model(camera=camera, draws=10**4, **bounds)).seconds
+
+    behind, before, before_and_far = seconds(1001.0), seconds(990.0), seconds(-1.0)
+
+    assert before > 1.05 * before_and_far
+    assert before > 1.05 * behind
+
+
+def test_a_model_of_nothing_and_one_without_facts_are_cheap():
+    nothing = model(triangles=0, vertices=0, draws=0, bounds_min=None, bounds_max=None)
+    request, _ = model()
+
+    assert estimate(*nothing).seconds < 1
+    assert estimate(request, {}).seconds < 1
+
+
+def test_a_picture_behind_everything_is_counted():
+    request, facts = model()
+    perlin = {"texture": {"technique": "perlin"}}
+    scene = request.scene.model_dump() | {"background": perlin}
+    behind = RenderRequest.model_validate(request.model_dump() | {"scene": scene})
+
+    assert estimate(behind, facts).seconds > 1.1 * estimate(request, facts).seconds

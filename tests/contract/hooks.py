@@ -1,4 +1,4 @@
-"""What schemathesis is told of this API: real pictures for uploads, and one check of our own."""
+"""What schemathesis is told of this API: real files for uploads, and one check of our own."""
 
 import json
 import struct
@@ -7,6 +7,8 @@ from pathlib import Path
 
 import schemathesis
 from hypothesis import strategies as st
+
+from tests import small_models
 
 DOCUMENT = (Path(__file__).parents[2] / "openapi.json").read_text("utf-8")
 SHORTEST_SECRET = 8
@@ -25,6 +27,17 @@ def png(width: int, height: int, value: int) -> bytes:
     return b"\x89PNG\r\n\x1a\n" + b"".join(parts)
 
 
+def damaged(content: bytes) -> st.SearchStrategy[bytes]:
+    """A file as it is, cut short, or with one byte changed."""
+    places = st.integers(0, len(content) - 1)
+    changed = st.builds(
+        lambda place, byte: content[:place] + bytes([byte]) + content[place + 1 :],
+        places,
+        st.integers(0, 255),
+    )
+    return st.just(content) | st.builds(lambda end: content[:end], places) | changed
+
+
 WHOLE = st.builds(png, st.integers(1, 9), st.integers(1, 9), st.integers(0, 255))
 CUT = st.builds(lambda whole, end: whole[:end], WHOLE, st.integers(0, 60))
 JUNK = st.builds(
@@ -36,6 +49,16 @@ schemathesis.openapi.media_type("image/png", WHOLE | CUT)
 for name in ("image/x-exr", "image/jpeg", "image/tiff", "image/vnd.radiance"):
     schemathesis.openapi.media_type(name, JUNK)
 schemathesis.openapi.media_type("application/octet-stream", WHOLE | JUNK)
+for name, content in {
+    "model/gltf-binary": small_models.glb(),
+    "model/gltf+json": small_models.gltf(),
+    "model/obj": small_models.OBJ,
+    "model/mtl": small_models.MTL,
+    "model/ply": small_models.PLY,
+    "model/stl": small_models.STL,
+    "application/gltf-buffer": small_models.BINARY,
+}.items():
+    schemathesis.openapi.media_type(name, damaged(content))
 
 
 @schemathesis.check

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from sqlalchemy import Connection, String, cast, delete, func, insert, select
+from sqlalchemy import Connection, String, cast, delete, func, insert, select, update
 
 from worker.jobs.database import Database
 from worker.jobs.errors import StorageFullError
@@ -71,6 +71,9 @@ class Assets:
     def put(self, tenant: str, upload: Path, sha256: str, facts: dict[str, Any]) -> Asset:
         """Take a file over, whose sha256 the caller has computed, as an asset of the tenant.
 
+        Returns:
+            The asset; with its earlier facts, where the tenant had it already.
+
         Raises:
             StorageFullError: the disk is full, or the uploads together would be too long; the
                 tenant does not have the asset.
@@ -99,6 +102,12 @@ class Assets:
                 )
             )
         return asset
+
+    def tell(self, tenant: str, sha256: str, facts: dict[str, Any]) -> None:
+        """Replace what is known of an asset of the tenant."""
+        is_this = (assets.c.tenant == tenant, assets.c.sha256 == sha256)
+        with self._database.writing() as connection:
+            connection.execute(update(assets).where(*is_this).values(facts=facts))
 
     def get(self, tenant: str, sha256: str) -> Asset | None:
         """One asset of the tenant."""

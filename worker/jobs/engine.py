@@ -260,14 +260,18 @@ class EmbeddedEngine:
         """The result of a succeeded job; None when it was evicted."""
         return self._results.find(job.work_id)
 
-    def measure(self, path: Path, time_limit_seconds: float) -> dict[str, Any]:
+    def measure(
+        self, path: Path, time_limit_seconds: float, media_type: str = ""
+    ) -> dict[str, Any]:
         """The facts of a file, found in a child; callable from any thread.
+
+        `media_type` is what the uploader calls it, for files whose content does not tell.
 
         Raises:
             MeasuringError: the file is unusable; `failure` says why.
             SlotError: no child could be started.
         """
-        return self._measuring.measure(path, time_limit_seconds)
+        return self._measuring.measure(path, time_limit_seconds, media_type)
 
     def ready(self) -> Readiness:
         """Whether work would be done."""

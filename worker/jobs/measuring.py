@@ -19,13 +19,16 @@ class Measuring:
         self._scratch = scratch
         self._turn = threading.Lock()
 
-    def measure(self, path: Path, time_limit_seconds: float) -> dict[str, Any]:
-        """The facts of a file; callable from any thread.
+    def measure(
+        self, path: Path, time_limit_seconds: float, media_type: str = ""
+    ) -> dict[str, Any]:
+        """The facts of a file, which its uploader calls `media_type`; callable from any thread.
 
         Raises:
             MeasuringError: the file is unusable, or measuring it took too much time or memory.
             SlotError: no child could be started.
         """
+        request = {"path": str(path), "media_type": media_type}
         with self._turn:
             for _ in range(ATTEMPTS):
                 if not self._slot.is_alive():
@@ -33,7 +36,7 @@ class Measuring:
                 scratch = half_file(self._scratch)
                 try:
                     outcome = self._slot.run(
-                        {"path": str(path)}, scratch, time_limit_seconds=time_limit_seconds
+                        request, scratch, time_limit_seconds=time_limit_seconds
                     )
                 finally:
                     scratch.unlink(missing_ok=True)

@@ -283,8 +283,9 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         assert self._frame is not None
         for name, value in shading.uniforms.items():
             program.set(name, value)
-        for unit, picture in enumerate(shading.pictures):
-            program.set(f"picture_{unit}", unit)
+        named = zip(shading.layout.samplers, shading.pictures, strict=True)
+        for unit, (name, picture) in enumerate(named):
+            program.set(name, unit)
             if self._frame.bound.get(unit) != picture:
                 self._frame.bound[unit] = picture
                 GL.glActiveTexture(GL.GL_TEXTURE0 + unit)

@@ -15,6 +15,7 @@ from api_schemas.language import FAMILIES
 from api_schemas.model_mesh import ModelMesh
 from api_schemas.output import RenderOutput
 from api_schemas.scene import Scene
+from api_schemas.textures.constant import ConstantSpec
 from worker.errors import RenderError
 from worker.geometry.model import Model
 from worker.images.image import Image
@@ -36,6 +37,7 @@ from worker.rendering.tiles import (
 )
 from worker.stages import Report
 
+_GREY = ConstantSpec(technique="constant", value=[0.5, 0.5, 0.5])
 Band: TypeAlias = Mapping[str, Image]
 """Some rows of the picture, as PICTURE, and of each layer that was asked for, by its name."""
 
@@ -199,21 +201,29 @@ def fingerprint() -> str:
     return _engine().context.fingerprint()
 
 
-def warm(report: Report) -> None:
+def warm(report: Report, textures: TextureMaker) -> None:
     """Draw every surface plain and with one map in each colour, so that nothing is left to compile.
 
     What is compiled here also fills Mesa's cache on disk, which later processes find.
+
+    Args:
+        report: Told the finished part, 0..1, and what is compiled.
+        textures: Makes the tables that surfaces bring themselves; they are kept.
     """
+
+    def maker(spec: TextureSpec, meaning: Meaning) -> Image:
+        return _grey(meaning) if spec == _GREY else textures(spec, meaning)
+
     output = RenderOutput(size=[16, 16], supersampling=2)
     surfaces = list(_typical())
     for done, surface in enumerate(surfaces):
         report(done / len(surfaces), f"compile {surface['technique']}")
-        list(render(_poster(surface), output, _grey, _no_model, lambda fraction, stage: None).bands)
+        list(render(_poster(surface), output, maker, _no_model, lambda fraction, stage: None).bands)
     report(1.0, "compile")
 
 
 def _typical() -> Iterator[dict[str, Any]]:
-    texture = {"technique": "constant", "value": [0.5, 0.5, 0.5]}
+    texture = _GREY.model_dump()
     for technique in FAMILIES["surfaces"]:
         yield {"technique": technique}
         for name, kind in surface_fields(technique).items():
@@ -234,5 +244,6 @@ def _no_model(mesh: ModelMesh) -> Model:
     raise RenderError("there is no model to warm up with")
 
 
-def _grey(spec: TextureSpec, meaning: Meaning) -> Image:
+def _grey(meaning: Meaning) -> Image:
+    """Give a picture that has mip levels, as those have that are not one pixel."""
     return Image(np.full((2, 2, 3), 0.5, dtype=np.float32), meaning)

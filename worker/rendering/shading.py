@@ -9,12 +9,13 @@ import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Protocol, get_args
+from typing import Any, Protocol, cast, get_args
 
 import numpy as np
 
 from api_schemas.coordinates.uv import UvSpec
 from api_schemas.families import AlphaMode, Meaning, SurfaceSpec, TextureSpec
+from api_schemas.language import FAMILIES
 from api_schemas.maps import ColorMap, Filter, Map, NormalMap, NumberMap, TextureTransform
 from worker.errors import RenderError
 from worker.rendering.chunks import chunk
@@ -23,6 +24,8 @@ from worker.rendering.textures import Texture, TextureFormat
 
 _STRUCT = re.compile(r"^struct Surface \{(?P<fields>.*?)^\};", re.MULTILINE | re.DOTALL)
 _FIELD = re.compile(r"^ +(?P<type>float|vec3|int) (?P<name>\w+);", re.MULTILINE)
+_TABLE = re.compile(r"^uniform sampler2D table_(?P<texture>\w+);", re.MULTILINE)
+_TABLE_SAMPLING = Sampling(wrap=("clamp", "clamp"), smooth=True, levels=False)
 _MEANINGS: dict[str, Meaning] = {"vec3": "colour", "float": "data"}
 
 
@@ -78,7 +81,8 @@ class ShadingLayout:
         opacity: How it is read, unless it is ignored.
         normal: The lookup that tilts the normal, if there is a normal map.
         lookups: Readings of pictures.
-        pictures: Texture units.
+        pictures: Texture units of maps, then of tables.
+        tables: What the surface's own tables are called.
     """
 
     technique: str
@@ -88,6 +92,13 @@ class ShadingLayout:
     normal: int | None
     lookups: tuple[LookupLayout, ...]
     pictures: tuple[PictureLayout, ...]
+    tables: tuple[str, ...]
+
+    @property
+    def samplers(self) -> tuple[str, ...]:
+        """The names of the texture units in the program."""
+        maps = len(self.pictures) - len(self.tables)
+        return (*(f"picture_{index}" for index in range(maps)), *self.tables)
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,7 +146,8 @@ def shade(surface: SurfaceSpec, texture_of: TextureSource) -> Shading:
     )
     opacity = plan.opacity(surface)
     normal = None if surface.normal is None else plan.normal(surface.normal)
-    pictures = tuple(plan.pictures)
+    tables = surface_tables(surface.technique)
+    pictures = (*plan.pictures, *(_table(spec, texture_of) for spec in tables.values()))
     layout = ShadingLayout(
         technique=surface.technique,
         parameters=parameters,
@@ -146,8 +158,27 @@ def shade(surface: SurfaceSpec, texture_of: TextureSource) -> Shading:
         pictures=tuple(
             PictureLayout(picture.sampling, picture.texture.format) for picture in pictures
         ),
+        tables=tuple(tables),
     )
     return Shading(layout, plan.all_uniforms(), pictures, surface.double_sided)
+
+
+@functools.cache
+def surface_tables(technique: str) -> dict[str, TextureSpec]:
+    """Return the textures that a surface's chunk reads by itself, by the names of their samplers.
+
+    `uniform sampler2D table_dfg` is the texture technique dfg, smooth and clamped, its outermost
+    texels at 0 and 1.
+    """
+    textures = FAMILIES["textures"]
+    return {
+        f"table_{name}": cast("TextureSpec", textures[name](technique=name, span="edges"))
+        for name in _TABLE.findall(chunk(f"surfaces/{technique}.glsl"))
+    }
+
+
+def _table(spec: TextureSpec, texture_of: TextureSource) -> Picture:
+    return Picture(texture_of(spec, "data", levels=False), _TABLE_SAMPLING, (0.0,) * 4)
 
 
 def tangent_uv_set(surface: SurfaceSpec) -> int | None:

@@ -52,9 +52,7 @@ def reflectance(roughness: float, cosine: float) -> tuple[float, float]:
 
 def warm() -> None:
     """Compile the kernels."""
-    _fill_table(
-        np.empty((1, 1, 3), np.float32), np.ones(1), np.ones(1), *_points(2), *_points(2)
-    )
+    _fill_table(np.empty((1, 1, 3), np.float32), np.ones(1), np.ones(1), *_points(2), *_points(2))
 
 
 def _places(count: int, span: str) -> Floats:

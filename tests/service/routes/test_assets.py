@@ -1,16 +1,23 @@
 import hashlib
+import json
 import os
 
 import pytest
 
 from service.routes import assets
 from service.tenants import tenant
+from tests.model_facts import model_facts
 from worker.images.file_kinds import FILE_KINDS
 
 
 def picture():
     """A new upload that the measurer takes."""
     return b"\x89PNG" + os.urandom(8)
+
+
+def toy(facts):
+    """A new upload of which the measurer tells these facts."""
+    return b"toy " + json.dumps({**facts, "sha256": os.urandom(9).hex()}).encode()
 
 
 @pytest.fixture
@@ -24,11 +31,14 @@ def image_request(sha256):
 
 
 def test_the_published_media_types_are_those_of_the_kinds_that_are_read():
-    assert list(assets.MEDIA_TYPES) == [kind.media_type for kind in FILE_KINDS]
+    published = [name for name in assets.SUFFIXES if name.startswith("image/")]
+
+    assert published == [kind.media_type for kind in FILE_KINDS]
 
 
 @pytest.mark.parametrize(
-    "media_type", ["image/png", "image/jpeg", "application/octet-stream", None]
+    "media_type",
+    ["image/png", "image/jpeg", "model/obj", "IMAGE/PNG; q=1", "application/octet-stream", None],
 )
 def test_a_bare_upload_is_named_by_its_hash(client, media_type):
     content = picture()
@@ -51,6 +61,104 @@ def test_a_bare_upload_is_named_by_its_hash(client, media_type):
         "float": False,
         "has_alpha": False,
     }
+
+
+@pytest.mark.parametrize(
+    ("media_type", "suffix"),
+    [
+        ("image/x-exr", "exr"),
+        ("image/jpeg", "jpg"),
+        ("image/tiff", "tif"),
+        ("image/vnd.radiance", "hdr"),
+        ("model/gltf-binary", "glb"),
+        ("model/gltf+json", "gltf"),
+        ("model/obj", "obj"),
+        ("model/mtl", "mtl"),
+        ("model/ply", "ply"),
+        ("model/stl", "stl"),
+        ("application/gltf-buffer", "bin"),
+    ],
+)
+def test_an_upload_is_fetched_as_what_it_is_under_a_usual_name(client, media_type, suffix):
+    told = {"kind": "buffer", "format": suffix, "media_type": media_type}
+    content = toy(told)
+    created = client.post("/v1/assets", content=content)
+    fetched = client.get(created.headers["location"])
+
+    assert created.json()["media_type"] == fetched.headers["content-type"] == media_type
+    assert fetched.content == content
+    assert fetched.headers["content-disposition"].endswith(f'.{suffix}"')
+
+
+def test_a_model_is_measured_like_a_picture(client):
+    told = model_facts(materials=["red", ""], files=["a.bin"], bounds_min=[-1, 0, -2.5])
+    content = toy(told)
+    created = client.post("/v1/assets", content=content)
+    facts = client.get(created.headers["location"], headers={"Accept": "application/json"})
+
+    assert created.status_code == 201
+    assert facts.json() == created.json()
+    sha256 = hashlib.sha256(content).hexdigest()
+    assert created.json() == {**told, "sha256": sha256, "bytes": len(content)}
+
+
+def declared(client, content, media_type, *, form=False):
+    if form:
+        return client.post("/v1/assets", files={"file": ("x", content, media_type)})
+    return client.post("/v1/assets", content=content, headers={"Content-Type": media_type})
+
+
+@pytest.mark.parametrize("form", [False, True])
+def test_a_buffer_has_to_be_called_one(client, form):
+    content = os.urandom(12)
+    before = declared(client, content, "application/octet-stream", form=form)
+    after = declared(client, content, "application/gltf-buffer", form=form)
+
+    assert (before.status_code, before.json()["code"]) == (409, "asset_unsupported")
+    assert (after.status_code, after.json()["kind"]) == (201, "buffer")
+
+
+def test_what_was_called_a_buffer_becomes_what_its_content_tells_and_stays_it(client):
+    content = picture()
+    kinds = [
+        declared(client, content, media_type).json()["kind"]
+        for media_type in ("application/gltf-buffer", "image/png", "application/gltf-buffer")
+    ]
+    junk = os.urandom(12)
+    answers = [
+        declared(client, junk, media_type)
+        for media_type in ("application/gltf-buffer", "image/png")
+    ]
+
+    assert kinds == ["buffer", "image", "image"]
+    assert [answer.status_code for answer in answers] == [201, 200]
+    assert answers[0].json() == answers[1].json()
+
+
+def test_facts_of_before_there_were_models_are_still_read(client, engine):
+    content = picture()
+    sha256 = hashlib.sha256(content).hexdigest()
+    location = client.post("/v1/assets", content=content).headers["location"]
+    engine.assets.tell(
+        "local",
+        sha256,
+        {
+            "sha256": sha256,
+            "kind": "image",
+            "media_type": "image/png",
+            "format": "png",
+            "bytes": 12,
+            "width": 1,
+            "height": 1,
+            "channels": 1,
+            "bits": 8,
+            "float": False,
+            "has_alpha": False,
+        },
+    )
+
+    assert client.get(location).status_code == 200
+    assert client.post("/v1/textures", json=image_request(sha256)).is_success
 
 
 def test_a_second_upload_is_told_so(client, asset):
@@ -110,7 +218,10 @@ def test_what_is_not_a_picture_is_refused_and_the_next_one_is_taken(client, engi
     assert not list(engine.assets.folder.glob("*.part"))
 
 
-@pytest.mark.parametrize("media_type", ["application/json", "text/plain", "video/mp4", "model/obj"])
+@pytest.mark.parametrize(
+    "media_type",
+    ["application/json", "text/plain", "video/mp4", "application/zip", "application/gltf+buffer"],
+)
 def test_a_media_type_that_is_not_taken_is_415(client, media_type):
     headers = {"Content-Type": media_type}
 

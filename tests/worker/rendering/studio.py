@@ -8,11 +8,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from api_schemas.families import Meaning, TextureSpec
 from api_schemas.output import RenderOutput
 from api_schemas.scene import Scene
+from api_schemas.textures.image import ImageSpec
 from worker.geometry.mesh import Mesh
 from worker.geometry.model import Model, Part
 from worker.images.image import Image
+from worker.synthesis import synthesize
 
 Pixels = NDArray[np.float32]
 
@@ -39,6 +42,13 @@ class Studio:
     def array(self, texture: dict[str, Any]) -> Pixels:
         """The array of a texture spec."""
         return self._arrays[texture["asset"]]
+
+    def make(self, spec: TextureSpec, meaning: Meaning) -> Image:
+        """Give a texture's picture: the array behind an image, else as its technique makes it."""
+        if isinstance(spec, ImageSpec):
+            return Image(self._arrays[spec.asset], meaning)
+        size = (spec.surface_side, spec.surface_side)
+        return synthesize(spec, size, self.make, meaning)
 
     def mesh(self, mesh: Mesh) -> dict[str, Any]:
         """Make a mesh spec of vertices."""
@@ -70,7 +80,7 @@ class Studio:
         rendering = self._render(
             Scene.model_validate_json(json.dumps(scene)),
             RenderOutput(size=list(size), supersampling=supersampling, layers=list(names)),
-            lambda spec, meaning: Image(self._arrays[spec.asset], meaning),
+            self.make,
             lambda mesh: self.models[mesh.asset],
             lambda fraction, stage: self.reports.append((fraction, stage)),
         )

@@ -12,10 +12,12 @@ uniform vec4 eye;  // (0, 0, 0, 1), or the direction towards an orthographic cam
 
 // Both sides of a surface are lit: the normal is turned to the side that is seen.
 SurfacePoint surface_point() {
-    vec3 normal = vertex_normal == vec3(0.0) ? vec3(0.0) : normalize(vertex_normal);
+    vec3 outer = vertex_normal == vec3(0.0) ? vec3(0.0) : normalize(vertex_normal);
+    vec3 normal = gl_FrontFacing ? outer : -outer;
     return SurfacePoint(
         vertex_position,
-        gl_FrontFacing ? normal : -normal,
+        normal,
+        normal,
         normalize(eye.xyz - eye.w * vertex_position),
         vertex_tangent,
         vertex_color,

@@ -2,6 +2,7 @@
 struct SurfacePoint {
     vec3 position;  // world axes, seen from the eye
     vec3 normal;    // on the eye's side of the surface; none, (0, 0, 0), of lines and points without
+    vec3 smooth_normal;  // the same, but never tilted by a normal map
     vec3 view;      // towards the eye
     vec4 tangent;   // as interpolated: where u grows, and the bitangent's sign
     vec4 color;     // the mesh's, white if it has none

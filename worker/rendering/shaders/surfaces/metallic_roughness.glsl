@@ -1,4 +1,5 @@
 #include "lib/lights.glsl"
+#include "lib/microfacets.glsl"
 #include "lib/surface_point.glsl"
 
 struct Surface {
@@ -15,15 +16,85 @@ struct Surface {
     int energy_compensation;
 };
 
-vec4 shade(SurfacePoint point, Surface surface) {
-    vec3 radiance = surface.emission + surface.base_color * ambient_radiance * surface.occlusion;
-    for (int i = 0; i < light_count; i++) {
-        Light light = light_at(i, point.position);
-        radiance += surface.base_color * light.irradiance * max(dot(point.normal, light.direction), 0.0) / 3.14159265;
-    }
-    return vec4(radiance, 1.0);
+const float PI = 3.14159265;
+const float COAT_F0 = 0.04;  // of varnish with an index of refraction of 1.5
+
+uniform sampler2D table_dfg;  // A, B and A + B over n.v and roughness, outermost texels at 0 and 1
+
+vec3 reflectance(float seen, float roughness) {
+    vec2 place = clamp(vec2(seen, roughness), 0.0, 1.0);
+    vec2 size = vec2(textureSize(table_dfg, 0));
+    return textureLod(table_dfg, (place * (size - 1.0) + 0.5) / size, 0.0).rgb;
 }
 
+// Fresnel's reflection: f0 head-on, f90 at grazing angles.
+struct Fresnel {
+    vec3 f0;
+    float f90;
+};
+
+vec3 reflected_at(Fresnel fresnel, float grazing) {
+    return fresnel.f0 + (fresnel.f90 - fresnel.f0) * grazing;
+}
+
+// Of light from everywhere, per table A, B, A + B.
+vec3 reflected_of_all(Fresnel fresnel, vec3 table) {
+    return fresnel.f0 * table.r + fresnel.f90 * table.g;
+}
+
+float largest(vec3 color) {
+    return max(color.r, max(color.g, color.b));
+}
+
+// glTF 2.0, appendix B, with KHR_materials_ior, _specular and _clearcoat:
+// F = F0 + (F90 - F0) (1 - v.h)^5, f = (1 - metallic) (1 - F) c / pi + F D V, the varnish on top.
+// Ambient light comes from everywhere alike: its reflection is F0 A + F90 B, and what a dielectric
+// does not reflect reaches the matt part. Energy compensation makes reflections brighter by
+// 1 + F0 (1 - A - B) / (A + B), for what has bounced between microfacets (Turquin 2019).
+// A point without a normal shows emission + c.
+vec4 shade(SurfacePoint point, Surface surface) {
+    vec3 base = surface.base_color * point.color.rgb;
+    if (point.normal == vec3(0.0)) return vec4(surface.emission + base, 1.0);
+    float metallic = clamp(surface.metallic, 0.0, 1.0);
+    float specular = clamp(surface.specular, 0.0, 1.0);
+    float ratio = (surface.ior - 1.0) / (surface.ior + 1.0);
+    vec3 dielectric_f0 = specular * clamp(ratio * ratio * surface.specular_color, 0.0, 1.0);
+    Fresnel dielectric = Fresnel(dielectric_f0, specular);
+    Fresnel whole = Fresnel(mix(dielectric_f0, base, metallic), mix(specular, 1.0, metallic));
+    vec3 matt = (1.0 - metallic) * base;
+    float alpha = alpha_of(surface.roughness);
+    float seen = clamp(dot(point.normal, point.view), 0.0, 1.0);
+    vec3 table = reflectance(seen, surface.roughness);
+    float lost = surface.energy_compensation == 1 ? (1.0 - table.b) / table.b : 0.0;
+    vec3 gain = 1.0 + lost * whole.f0;
+
+    float coat_alpha = alpha_of(surface.clearcoat_roughness);
+    float coat_seen = clamp(dot(point.smooth_normal, point.view), 0.0, 1.0);
+    float coat = clamp(surface.clearcoat, 0.0, 1.0)
+        * (COAT_F0 + (1.0 - COAT_F0) * schlick(coat_seen));
+
+    vec3 all_around = surface.occlusion * ambient_radiance;
+    vec3 kept = reflected_of_all(dielectric, table) * (1.0 + lost * dielectric_f0);
+    vec3 mirrored = reflected_of_all(whole, table) * gain;
+    vec3 radiance = surface.emission + all_around * (matt * (1.0 - largest(kept)) + mirrored);
+    vec3 on_coat = all_around * reflectance(coat_seen, surface.clearcoat_roughness).b;
+    for (int i = 0; i < light_count; i++) {
+        Light light = light_at(i, point.position);
+        vec3 half_way = light.direction + point.view;
+        half_way *= inversesqrt(max(dot(half_way, half_way), 1e-20));
+        float grazing = schlick(dot(point.view, half_way));
+        float facing = max(dot(point.normal, light.direction), 0.0);
+        float coat_facing = max(dot(point.smooth_normal, light.direction), 0.0);
+        vec3 below = matt * ((1.0 - largest(reflected_at(dielectric, grazing))) * facing / PI);
+        float peak = highlight(point.normal, half_way, facing, seen, alpha);
+        float coat_peak = highlight(point.smooth_normal, half_way, coat_facing, coat_seen, coat_alpha);
+        radiance += (below + gain * reflected_at(whole, grazing) * peak) * light.irradiance;
+        on_coat += coat_peak * light.irradiance;
+    }
+    return vec4(mix(radiance, on_coat, coat), 1.0);
+}
+
+// The colour of the matt part, or of the metal.
 vec3 albedo(Surface surface) {
     return surface.base_color;
 }
