@@ -92,7 +92,8 @@ def test_a_slow_line_that_keeps_coming_is_heard_out(caller):
 
     answer = b""
     while not answer.endswith(str(size).encode()):
-        assert (piece := caller.recv(65536)), answer
+        piece = caller.recv(65536)
+        assert piece, answer
         answer += piece
 
 

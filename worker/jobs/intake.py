@@ -1,7 +1,7 @@
 """From what callers ask for to work: that which is there already, or rows of new work."""
 
 import uuid
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -43,7 +43,8 @@ def joinable(
 ) -> dict[str, Row[Any]]:
     """By digest, the tenant's work that is under way or has a result that still serves."""
     parameters = {"tenant": tenant, "digests": list(digests)}
-    newest = {row.digest: row for row in connection.execute(_JOINABLE, parameters)}
+    rows: Sequence[Row[Any]] = connection.execute(_JOINABLE, parameters).all()
+    newest = {row.digest: row for row in rows}
     return {
         digest: row
         for digest, row in newest.items()

@@ -209,7 +209,7 @@ _PLACES: Final = select(_LINE.c.id, _LINE.c.place).where(
 )
 
 
-def _found(connection: Connection, query: Select[Any], **parameters: str) -> list[Job]:
+def _found(connection: Connection, query: Select[Any], **parameters: str | None) -> list[Job]:
     return _jobs_of(connection, connection.execute(query, parameters).all())
 
 
