@@ -43,7 +43,7 @@ def joinable(
 ) -> dict[str, Row[Any]]:
     """By digest, the tenant's work that is under way or has a result that still serves."""
     parameters = {"tenant": tenant, "digests": list(digests)}
-    rows: Sequence[Row[Any]] = connection.execute(_JOINABLE, parameters).all()
+    rows: Sequence[Any] = connection.execute(_JOINABLE, parameters).all()
     newest = {row.digest: row for row in rows}
     return {
         digest: row
