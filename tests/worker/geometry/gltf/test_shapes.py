@@ -210,6 +210,21 @@ def test_only_vertices_in_use_are_kept() -> None:
         assert read_mesh.triangles[0].tolist() == [0, 1, 2]
 
 
+def test_primitives_of_nothing_are_left_out_and_told() -> None:
+    builder = Builder()
+    builder.mesh(TRIANGLE[:2])
+    nowhere = {"attributes": {"NORMAL": builder.accessor([[0, 0, 1]] * 3)}}
+    builder.json["meshes"][0]["primitives"].append(nowhere)
+    builder.json |= shown(0)
+    model = read(builder.glb(), {})
+
+    assert model.parts == ()
+    assert model.warnings == (
+        "a primitive with too few vertices is not drawn",
+        "a primitive without positions is not drawn",
+    )
+
+
 def test_an_index_beyond_the_vertices_is_refused_where_it_stands() -> None:
     builder = Builder()
     builder.mesh(TRIANGLE, [0, 1, 3])
