@@ -38,6 +38,7 @@ class JobLinks(Schema):
     """Where to go from here."""
 
     self: Link = Field(description="This job.")
+    events: Link = Field(description="What happens to the job, as it happens.")
     cancel: Link = Field(description="DELETE this to cancel the job.")
     result: Link = Field(description="The finished file.")
 
@@ -58,6 +59,10 @@ class Job(Schema):
     )
     progress: Annotated[float, Field(ge=0, le=1)] = Field(description="From 0 to 1.")
     stage: str | None = Field(description="What is being done, while running.")
+    eta_seconds: NonNegative | None = Field(
+        description="Seconds until it is finished, going by how long the last jobs of its kind "
+        "took; unknown when it is, and before there were any."
+    )
     created: AwareDatetime = Field(description="When the request arrived.")
     started: AwareDatetime | None = Field(
         description="When the work began: before the request, where an equal one had been made."

@@ -9,6 +9,8 @@ from api_schemas.base import Schema
 from api_schemas.families import Meaning
 from api_schemas.maps import Slot
 
+BRANCHES = (Schema, list)
+
 Model = TypeVar("Model", bound=Schema)
 
 
@@ -17,10 +19,13 @@ def parts(value: object, pointer: str = "") -> Iterator[tuple[str, Schema]]:
     if isinstance(value, Schema):
         yield pointer, value
         for name in type(value).model_fields:
-            yield from parts(getattr(value, name), f"{pointer}/{name}")
+            inner = getattr(value, name)
+            if isinstance(inner, BRANCHES):  # most are leaves, and a batch has many
+                yield from parts(inner, f"{pointer}/{name}")
     elif isinstance(value, list):
         for index, item in enumerate(value):
-            yield from parts(item, f"{pointer}/{index}")
+            if isinstance(item, BRANCHES):
+                yield from parts(item, f"{pointer}/{index}")
 
 
 def escaped(key: str) -> str:

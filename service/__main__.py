@@ -5,14 +5,25 @@ import socket
 import sys
 import threading
 from types import FrameType
+from typing import Final
 
 import uvicorn
 from fastapi import FastAPI
 
 from service.app import create_app, make_engine
+from service.patience import patient
 from service.settings import Settings
-from worker.jobs.errors import DataFolderInUseError
+from worker.jobs import log_lines
+from worker.jobs.errors import JobsError
 from worker.jobs.forkserver import start_forkserver
+
+SWITCH_SECONDS: Final = 0.0005
+"""A thread that wants the interpreter waits so long for one that computes: ten times less than
+Python's own patience, since answers pass through several threads."""
+
+
+UNREAD_SECONDS: Final = 60
+"""After which the kernel gives up a caller that takes nothing of what was sent to it."""
 
 
 class Server(uvicorn.Server):
@@ -41,10 +52,9 @@ class Server(uvicorn.Server):
 def main() -> int:
     """Serve; the answer is the exit code."""
     settings = Settings()
-    logging.basicConfig(
-        level=settings.log_level.upper(), format="%(asctime)s %(levelname)s %(name)s: %(message)s"
-    )
+    log_lines.install(settings.log_level)
     logging.getLogger("alembic").setLevel(logging.WARNING)
+    sys.setswitchinterval(SWITCH_SECONDS)
     start_forkserver()
     try:
         engine = make_engine(settings)
@@ -57,6 +67,8 @@ def main() -> int:
         port=settings.port,
         log_level=settings.log_level,
         log_config=None,
+        access_log=False,
+        http=patient(settings.patience_seconds),
         server_header=False,
         timeout_graceful_shutdown=5,
     )
@@ -64,7 +76,7 @@ def main() -> int:
     try:
         listener = listening(settings.host, settings.port)
         engine.start()
-    except (OSError, DataFolderInUseError) as error:
+    except (OSError, JobsError) as error:
         return _refused(str(error))
     print(f"Texloom serves {address(listener)} (documentation: /docs)", flush=True)  # noqa: T201
     server.run([listener])
@@ -81,6 +93,7 @@ def listening(host: str, port: int) -> socket.socket:
 
     It says that it is TCP: only then asyncio switches off Nagle's algorithm, which makes every
     answer on a connection that is kept wait 40 ms for the caller's delayed acknowledgement.
+    The connections it accepts inherit its patience with callers that do not read.
 
     Raises:
         OSError: The address is in use or not of this machine.
@@ -91,6 +104,7 @@ def listening(host: str, port: int) -> socket.socket:
     family, kind, protocol, _, place = found[0]
     listener = socket.socket(family, kind, protocol)
     listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    listener.setsockopt(socket.IPPROTO_TCP, socket.TCP_USER_TIMEOUT, UNREAD_SECONDS * 1000)
     try:
         listener.bind(place)
     except OSError as error:

@@ -16,9 +16,38 @@ from api_schemas.version import VERSION
 from service import error_handlers
 from service.headers import SameOriginWrites, SecurityHeaders
 from service.openapi_document import document
-from service.routes import assets, front, health, jobs, renders, techniques, textures, validate
+from service.request_log import RequestLog, RequestMeters
+from service.routes import (
+    assets,
+    batches,
+    events,
+    front,
+    health,
+    jobs,
+    renders,
+    status,
+    techniques,
+    textures,
+    validate,
+)
 from service.settings import Settings
 from worker.jobs.engine import EmbeddedEngine
+from worker.jobs.queue import JobQueue
+from worker.jobs.results import Limits
+
+ROUTES = (
+    front,
+    textures,
+    renders,
+    batches,
+    validate,
+    jobs,
+    events,
+    assets,
+    techniques,
+    health,
+    status,
+)
 
 EXPOSED = (
     "Content-Location",
@@ -28,13 +57,17 @@ EXPOSED = (
     "Preference-Applied",
     "Retry-After",
     "Texloom-Digest",
+    "X-Request-Id",
 )
 
 MEASURED_AT_ONCE = 2
 """Uploads wait their turn here, so that they do not take all threads from everything else."""
 
+BATCHES_AT_ONCE = 1
+"""So do batches: to look into a thousand requests takes seconds, in threads that share one core."""
 
-def create_app(settings: Settings, engine: EmbeddedEngine | None = None) -> FastAPI:
+
+def create_app(settings: Settings, engine: JobQueue | None = None) -> FastAPI:
     """Return the app; an engine that is handed in is started and drained by its owner."""
 
     @asynccontextmanager
@@ -58,7 +91,8 @@ def create_app(settings: Settings, engine: EmbeddedEngine | None = None) -> Fast
     app.state.engine = engine
     app.state.drained = threading.Event()
     app.state.measuring = CapacityLimiter(MEASURED_AT_ONCE)
-    for resource in (front, textures, renders, validate, jobs, assets, techniques, health):
+    app.state.batching = CapacityLimiter(BATCHES_AT_ONCE)
+    for resource in ROUTES:
         app.include_router(resource.router)
     error_handlers.install(app)
     app.add_middleware(SameOriginWrites, allowed=settings.cors_origins)
@@ -71,6 +105,8 @@ def create_app(settings: Settings, engine: EmbeddedEngine | None = None) -> Fast
             expose_headers=EXPOSED,
         )
     app.add_middleware(SecurityHeaders)
+    app.state.requests = RequestMeters()
+    app.add_middleware(RequestLog, meters=app.state.requests)
     app.openapi = partial(_openapi, app)  # type: ignore[method-assign]
     return app
 
@@ -81,6 +117,14 @@ def make_engine(settings: Settings) -> EmbeddedEngine:
         settings.data,
         slots=settings.slots,
         queue_limit=settings.queue_limit,
+        tenant_queue_limit=settings.tenant_queue_limit,
+        recycle_after=settings.recycle_after_jobs,
+        keep=Limits(
+            bytes=settings.result_limit_bytes,
+            seconds=settings.result_days * 86400,
+            free_bytes=settings.disk_reserve_bytes,
+        ),
+        assets_bytes_limit=settings.asset_limit_bytes,
         time_limit_seconds=settings.time_limit_seconds,
         memory_limit_bytes=settings.memory_limit_bytes,
         gl=settings.gl,

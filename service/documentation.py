@@ -1,9 +1,11 @@
 """Pieces of the OpenAPI document that several operations share."""
 
 from collections.abc import Mapping
-from typing import Any, Final
+from typing import Annotated, Any, Final, TypeAlias
 
-from api_schemas.jobs import Job
+from fastapi import Path
+
+from api_schemas.jobs import JOB_ID_PATTERN, Job
 from api_schemas.output import MEDIA_TYPES
 from service.problems import MEDIA_TYPE, TABLE
 
@@ -33,6 +35,10 @@ PREFERENCE: Final = {
 DIGEST: Final = {"Texloom-Digest": header("The digest of the request.", required=False)}
 PICTURES: Final = {media_type: {"schema": BINARY} for media_type in MEDIA_TYPES.values()}
 
+JOB_ID: TypeAlias = Annotated[
+    str, Path(description="The job's name.", json_schema_extra={"pattern": JOB_ID_PATTERN})
+]
+
 PREFER: Final = {
     "name": "Prefer",
     "in": "header",
@@ -53,7 +59,7 @@ def problems(*codes: str) -> Responses:
             "description": "; ".join(f"`{name}`: {TABLE[name][1].lower()}" for name in names),
             "content": {MEDIA_TYPE: {"schema": {"$ref": "#/components/schemas/Problem"}}},
         }
-        if status in (429, 503):
+        if status in (429, 503, 507):
             responses[status]["headers"] = RETRY_AFTER
         if "job_not_finished" in names:
             responses[status]["headers"] = LATER
@@ -71,6 +77,7 @@ def job_links() -> Document:
         for name, operation, text in (
             ("self", "get_job", "How the job is."),
             ("cancel", "cancel_job", "Stop the job."),
+            ("events", "get_events", "What happens to the job, as it happens."),
             ("result", "get_result", "The finished file."),
         )
     }
@@ -97,6 +104,21 @@ JSON_BODY_CODES: Final = (
     "request_invalid",
 )
 
+OBSTACLE_CODES: Final = (
+    "asset_missing",
+    "asset_kind_mismatch",
+    "asset_file_missing",
+    "model_part_unknown",
+    "camera_degenerate",
+    "light_degenerate",
+    "transform_singular",
+    "nesting_too_deep",
+    "too_many_nodes",
+    "too_many_maps",
+    "layers_need_exr",
+    "over_budget",
+)
+
 SUBMITTED: Final[Responses] = {
     200: {
         "description": "The job, already finished; or, where Accept prefers it, the picture.",
@@ -119,22 +141,13 @@ SUBMITTED: Final[Responses] = {
     },
     **problems(
         *JSON_BODY_CODES,
+        *OBSTACLE_CODES,
         "not_acceptable",
-        "asset_missing",
-        "asset_kind_mismatch",
-        "asset_file_missing",
-        "model_part_unknown",
-        "camera_degenerate",
-        "light_degenerate",
-        "transform_singular",
-        "nesting_too_deep",
-        "too_many_nodes",
-        "too_many_maps",
-        "layers_need_exr",
-        "over_budget",
+        "idempotency_key_reused",
         "job_failed",
         "job_cancelled",
         "queue_full",
+        "tenant_queue_full",
         "draining",
         "storage_full",
         "result_evicted",

@@ -7,12 +7,12 @@ from starlette.requests import Request
 
 from api_schemas.assets import ASSET_FACTS, AssetFacts
 from service.settings import Settings
-from worker.jobs.engine import EmbeddedEngine
+from worker.jobs.queue import JobQueue
 
 
-async def engine(request: Request) -> EmbeddedEngine:
+async def engine(request: Request) -> JobQueue:
     """Return the engine of the running service."""
-    found: EmbeddedEngine = request.app.state.engine
+    found: JobQueue = request.app.state.engine
     return found
 
 
@@ -22,11 +22,11 @@ async def settings(request: Request) -> Settings:
     return found
 
 
-Engine = Annotated[EmbeddedEngine, Depends(engine)]
+Engine = Annotated[JobQueue, Depends(engine)]
 Configuration = Annotated[Settings, Depends(settings)]
 
 
-def asset_facts(engine: EmbeddedEngine, tenant: str, sha256: str) -> AssetFacts | None:
+def asset_facts(engine: JobQueue, tenant: str, sha256: str) -> AssetFacts | None:
     """Return what was measured of one of the tenant's assets."""
     asset = engine.assets.get(tenant, sha256)
     return None if asset is None else ASSET_FACTS.validate_python(asset.facts)

@@ -15,7 +15,15 @@ from api_schemas.problems import Obstruction
 from service.pointers import told
 from service.problems import ProblemError
 from worker.jobs.child import FULL_DISK
-from worker.jobs.errors import DrainingError, QueueFullError, SlotError, StorageFullError
+from worker.jobs.errors import (
+    DrainingError,
+    KeyReusedError,
+    QueueFullError,
+    RecordsBusyError,
+    SlotError,
+    StorageFullError,
+    TenantFullError,
+)
 
 METHODS: Final = ("GET", "HEAD", "POST", "PUT", "PATCH", "DELETE")
 SOON: Final = {"Retry-After": "5"}
@@ -32,10 +40,13 @@ def install(app: FastAPI) -> None:
         HTTPException: _routing,
         RequestValidationError: _parameters,
         QueueFullError: _queue_full,
+        TenantFullError: _tenant_full,
         DrainingError: _draining,
+        KeyReusedError: _key_reused,
         StorageFullError: _storage_full,
         OSError: _no_disk,
         SlotError: _no_slot,
+        RecordsBusyError: _no_records,
         ClientDisconnect: _gone,
         Exception: _mistake,
     }
@@ -79,16 +90,28 @@ async def _parameters(_request: Request, error: RequestValidationError) -> Respo
 
 
 async def _queue_full(_request: Request, error: QueueFullError) -> Response:
+    return _busy("queue_full", error)
+
+
+async def _tenant_full(_request: Request, error: TenantFullError) -> Response:
+    return _busy("tenant_queue_full", error)
+
+
+def _busy(code: str, error: QueueFullError) -> Response:
     headers = {"Retry-After": str(error.retry_after_seconds)}
-    return ProblemError("queue_full", str(error), headers=headers).response()
+    return ProblemError(code, str(error), headers=headers).response()
 
 
 async def _draining(_request: Request, _error: DrainingError) -> Response:
     return ProblemError("draining", headers=SOON).response()
 
 
-async def _storage_full(_request: Request, _error: StorageFullError) -> Response:
-    return ProblemError("storage_full", headers=SOON).response()
+async def _key_reused(_request: Request, error: KeyReusedError) -> Response:
+    return ProblemError("idempotency_key_reused", str(error)).response()
+
+
+async def _storage_full(_request: Request, error: StorageFullError) -> Response:
+    return ProblemError("storage_full", str(error), headers=SOON).response()
 
 
 async def _no_disk(request: Request, error: OSError) -> Response:
@@ -101,6 +124,11 @@ async def _no_disk(request: Request, error: OSError) -> Response:
 async def _no_slot(_request: Request, error: SlotError) -> Response:
     log.error("no worker: %s", error)
     return ProblemError("not_ready", headers=SOON).response()
+
+
+async def _no_records(_request: Request, error: RecordsBusyError) -> Response:
+    log.error("no records: %s", error)
+    return ProblemError("not_ready", str(error), headers=SOON).response()
 
 
 async def _gone(_request: Request, _error: ClientDisconnect) -> Response:

@@ -10,10 +10,19 @@ from api_schemas.requests import Kind
 FOLDERS: dict[Kind, str] = {"texture": "textures", "render": "renders"}
 
 
-@cache
 def examples(kind: Kind) -> dict[str, dict[str, Any]]:
     """Return the example bodies of a kind by name."""
-    folder = files("api_schemas") / "examples" / FOLDERS[kind]
+    return _bodies(FOLDERS[kind])
+
+
+def batch_examples() -> dict[str, dict[str, Any]]:
+    """Return the example bodies of batches by name."""
+    return _bodies("batches")
+
+
+@cache
+def _bodies(name: str) -> dict[str, dict[str, Any]]:
+    folder = files("api_schemas") / "examples" / name
     found = [entry for entry in folder.iterdir() if entry.name.endswith(".json")]
     return {
         entry.name.removesuffix(".json"): json.loads(entry.read_text("utf-8"))

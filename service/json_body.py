@@ -36,14 +36,14 @@ def body_of(model: type[Model]) -> Callable[[Request], Awaitable[Model]]:
     return read
 
 
-async def json_bytes(request: Request) -> bytes:
-    """Return the body of a request that says it is JSON.
+async def json_bytes(request: Request, times: int = 1) -> bytes:
+    """Return the body of a request that says it is JSON; `times` as long as others may be.
 
     Raises:
         ProblemError: It is not JSON by its own account, or too large.
     """
     require_json(request)
-    limit = request.app.state.settings.body_limit_bytes
+    limit = times * request.app.state.settings.body_limit_bytes
     return b"".join([chunk async for chunk in chunks(request, limit)])
 
 

@@ -10,6 +10,7 @@ from fastapi import FastAPI
 from fastapi.openapi.utils import get_openapi
 from pydantic.json_schema import models_json_schema
 
+from api_schemas.batches import ListedBatch, SweptBatch
 from api_schemas.problems import Problem
 from api_schemas.requests import REQUESTS
 
@@ -30,7 +31,7 @@ def document(app: FastAPI) -> dict[str, Any]:
         routes=app.routes,
         separate_input_output_schemas=False,
     )
-    models = [*REQUESTS.values(), Problem]
+    models = [*REQUESTS.values(), ListedBatch, SweptBatch, Problem]
     _, extra = models_json_schema(
         [(model, "validation") for model in models], ref_template="#/components/schemas/{model}"
     )

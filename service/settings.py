@@ -44,6 +44,16 @@ class Settings(BaseSettings):
         description="Jobs that may wait before more are refused with 429. A few minutes of work: "
         "an honest refusal is better than a wait without end.",
     )
+    tenant_queue_limit: Annotated[int, Field(ge=0, le=1_000_000)] = Field(
+        default=256,
+        description="Of these, jobs of one tenant. As many, since until there are keys there is "
+        "but one.",
+    )
+    recycle_after_jobs: Annotated[int, Field(ge=1)] = Field(
+        default=1000,
+        description="Jobs after which a worker is replaced by a fresh one, which warms up beside "
+        "it. What native libraries may leak stays small.",
+    )
     time_limit_seconds: Annotated[float, Field(gt=0, le=86400)] = Field(
         default=600.0,
         description="After which a running job is killed. Ten times what the cost limit lets in, "
@@ -73,6 +83,25 @@ class Settings(BaseSettings):
         default=256 * MEBIBYTE,
         description="Longest upload. An 8192 x 4096 half float panorama, uncompressed.",
     )
+    result_limit_bytes: Annotated[int, Field(ge=0)] = Field(
+        default=10 * GIBIBYTE,
+        description="What finished files may take together; the least recently used are removed "
+        "first. Thousands of large pictures.",
+    )
+    result_days: Annotated[float, Field(gt=0)] = Field(
+        default=30.0,
+        description="Days after which an unused finished file is removed. It can be made again.",
+    )
+    disk_reserve_bytes: Annotated[int, Field(ge=0)] = Field(
+        default=512 * MEBIBYTE,
+        description="Room on the disk below which finished files are removed. For records, "
+        "uploads, and others on the machine.",
+    )
+    asset_limit_bytes: Annotated[int, Field(ge=0)] = Field(
+        default=20 * GIBIBYTE,
+        description="What uploads may take together before more are refused with 507. They are "
+        "never removed but by DELETE, since nobody else could bring them back.",
+    )
     measure_limit_seconds: Annotated[float, Field(gt=0)] = Field(
         default=20.0,
         description="Time to look into an upload. Ten times what the largest picture takes.",
@@ -81,6 +110,11 @@ class Settings(BaseSettings):
         default=30,
         description="How long a request for a picture waits for it, unless it prefers otherwise. "
         "Below the patience of most proxies.",
+    )
+    patience_seconds: Annotated[float, Field(gt=0)] = Field(
+        default=30.0,
+        description="How long a request may take to arrive; every KiB of a body adds a second. "
+        "Half-sent requests would keep their connections for ever.",
     )
     drain_seconds: Annotated[float, Field(ge=0)] = Field(
         default=20.0,

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Iterator, Mapping
+from itertools import chain
 from pathlib import Path
 from typing import Final
 
@@ -10,7 +11,7 @@ from starlette.responses import Response, StreamingResponse
 
 from service.problems import ProblemError
 
-CHUNK: Final = 1 << 18
+CHUNK: Final = 1 << 20
 RANGE: Final = re.compile(r"bytes=(\d{0,18})-(\d{0,18})")
 IMMUTABLE: Final = "private, max-age=31536000, immutable"
 INERT: Final = {
@@ -27,6 +28,7 @@ def stored_file(
 
     Raises:
         ProblemError: The range asked for lies beyond the end.
+        FileNotFoundError: The file was removed meanwhile.
     """
     etag = f'"{sha256}"'
     reading = request.method in ("GET", "HEAD")
@@ -45,8 +47,12 @@ def stored_file(
     head |= INERT | {"Accept-Ranges": "bytes", "Content-Length": str(last - first + 1)}
     if request.method == "HEAD":
         return Response(headers=head, media_type=media_type)
+    pieces = _pieces(path, first, last)
+    beginning = next(pieces, b"")  # opens the file: from here on nobody can take it away
+    if len(beginning) == last - first + 1:
+        return Response(beginning, status_code=status, headers=head, media_type=media_type)
     return StreamingResponse(
-        _pieces(path, first, last), status_code=status, headers=head, media_type=media_type
+        chain([beginning], pieces), status_code=status, headers=head, media_type=media_type
     )
 
 

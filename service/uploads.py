@@ -16,8 +16,8 @@ from api_schemas.assets import ASSET_FACTS, AssetFacts
 from api_schemas.problems import Obstruction
 from service.limited_body import chunks
 from service.problems import TABLE, ProblemError
-from worker.jobs.engine import EmbeddedEngine
 from worker.jobs.errors import MeasuringError
+from worker.jobs.queue import JobQueue
 
 FORM: Final = "multipart/form-data"
 FIELD: Final = "file"
@@ -76,7 +76,7 @@ def may_be_more(known: AssetFacts, media_type: str) -> bool:
 
 
 def measured_and_kept(
-    engine: EmbeddedEngine,
+    engine: JobQueue,
     tenant: str,
     path: Path,
     sha256: str,

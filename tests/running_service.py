@@ -29,8 +29,7 @@ class RunningService:
 
     def start(self) -> "RunningService":
         """Start the service, with what this clone has compiled, and wait until it is warm."""
-        if WARM.is_dir() and not (self.data / "cache").exists():
-            shutil.copytree(WARM, self.data / "cache")
+        self.copy_caches()
         with socket.socket() as probe:
             probe.bind(("127.0.0.1", 0))
             port = probe.getsockname()[1]
@@ -45,6 +44,11 @@ class RunningService:
                 stderr=log,
             )
         return self.wait_until_warm()
+
+    def copy_caches(self) -> None:
+        """Take over what this clone has compiled."""
+        if WARM.is_dir() and not (self.data / "cache").exists():
+            shutil.copytree(WARM, self.data / "cache")
 
     def wait_until_warm(self) -> "RunningService":
         """Wait for a warm worker; one whose job was cancelled has to warm up anew."""

@@ -16,7 +16,7 @@ from service.documentation import BINARY, ETAG, IF_HEADERS, LOCATION, Responses,
 from service.engine_access import Configuration, Engine, asset_facts
 from service.negotiation import JSON, quality, require_accepted
 from service.problems import ProblemError
-from service.stored_files import stored_file
+from service.stored_files import names, stored_file
 from service.tenants import Tenant
 from service.uploads import (
     BUFFER,
@@ -28,7 +28,7 @@ from service.uploads import (
     stored,
     upload,
 )
-from worker.jobs.engine import EmbeddedEngine
+from worker.jobs.queue import JobQueue
 
 router = APIRouter(prefix="/v1/assets", tags=["assets"])
 
@@ -139,8 +139,9 @@ async def create_asset(
         async with upload(request, settings.upload_limit_bytes) as sent:
             sha256 = await stored(sent.content, path)
         known = await run_in_threadpool(asset_facts, engine, tenant, sha256)
-        facts = known
-        if known is None or may_be_more(known, sent.media_type):
+        if known is not None and not may_be_more(known, sent.media_type):
+            facts = known
+        else:
             try:
                 facts = await to_thread.run_sync(
                     measured_and_kept,
@@ -155,6 +156,7 @@ async def create_asset(
             except ProblemError:
                 if known is None:
                     raise
+                facts = known
     return Response(
         ASSET_FACTS.dump_json(facts),
         status_code=201 if known is None else 200,
@@ -184,7 +186,10 @@ def get_asset(request: Request, sha256: Name, engine: Engine, tenant: Tenant) ->
     facts, path = _find(engine, tenant, sha256)
     accept = request.headers.get("accept")
     if quality(accept, JSON) > quality(accept, facts.media_type):
-        headers = {"ETag": f'"{sha256}-facts"', "Vary": "Accept", "Cache-Control": "no-cache"}
+        etag = f'"{sha256}-facts"'
+        headers = {"ETag": etag, "Vary": "Accept", "Cache-Control": "private, no-cache"}
+        if names(request.headers.get("if-none-match"), etag):
+            return Response(status_code=304, headers=headers)
         return Response(ASSET_FACTS.dump_json(facts), headers=headers, media_type=JSON)
     require_accepted(request, facts.media_type)
     suffix = SUFFIXES.get(facts.media_type, "bin")
@@ -192,7 +197,12 @@ def get_asset(request: Request, sha256: Name, engine: Engine, tenant: Tenant) ->
         "Content-Disposition": f'attachment; filename="{sha256[:12]}.{suffix}"',
         "Vary": "Accept",
     }
-    return stored_file(request, path, media_type=facts.media_type, sha256=sha256, headers=headers)
+    try:
+        return stored_file(
+            request, path, media_type=facts.media_type, sha256=sha256, headers=headers
+        )
+    except FileNotFoundError:  # deleted at this moment
+        raise ProblemError("asset_unknown") from None
 
 
 @router.delete(
@@ -201,7 +211,10 @@ def get_asset(request: Request, sha256: Name, engine: Engine, tenant: Tenant) ->
     operation_id="delete_asset",
     summary="Delete an upload",
     response_class=Response,
-    responses={204: {"description": "It is gone."}, **problems("origin_refused", "asset_unknown")},
+    responses={
+        204: {"description": "It is gone."},
+        **problems("origin_refused", "asset_unknown", "storage_full"),
+    },
 )
 def delete_asset(sha256: Name, engine: Engine, tenant: Tenant) -> Response:
     """Results made with it stay; new requests for it are refused."""
@@ -210,7 +223,7 @@ def delete_asset(sha256: Name, engine: Engine, tenant: Tenant) -> Response:
     return Response(status_code=204)
 
 
-def _find(engine: EmbeddedEngine, tenant: str, sha256: str) -> tuple[AssetFacts, pathlib.Path]:
+def _find(engine: JobQueue, tenant: str, sha256: str) -> tuple[AssetFacts, pathlib.Path]:
     facts = path = None
     if WELL_FORMED.fullmatch(sha256):
         facts = asset_facts(engine, tenant, sha256)

@@ -1,43 +1,39 @@
 """Jobs: look, list, cancel, and fetch what they made."""
 
-import re
 from typing import Annotated, Final
 from urllib.parse import urlencode
 
-from fastapi import APIRouter, Path, Query
+from fastapi import APIRouter, Query
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
 from starlette.responses import Response
 
-from api_schemas.jobs import CURSOR_PATTERN, JOB_ID_PATTERN, Job, JobPage, State
+from api_schemas.jobs import CURSOR_PATTERN, Job, JobPage, State
 from service.documentation import (
     DIGEST,
     ETAG,
     IF_HEADERS,
+    JOB_ID,
     LATER,
     LOCATION,
     PICTURES,
     PREFER,
     PREFERENCE,
+    Responses,
     header,
     job_links,
     problems,
 )
 from service.engine_access import Engine
-from service.job_views import job_url, require_succeeded, result, view
+from service.job_views import WELL_FORMED, found_job, job_url, require_succeeded, result, view
 from service.negotiation import patience, require_accepted
 from service.problems import ProblemError
+from service.stored_files import names
 from service.submission import job_answer, picture, waited
 from service.tenants import Tenant
-from worker.jobs import job as records
-from worker.jobs.engine import EmbeddedEngine
+from worker.jobs.watch import news_id
 
 router = APIRouter(tags=["jobs"])
-
-JobId = Annotated[
-    str, Path(description="The job's name.", json_schema_extra={"pattern": JOB_ID_PATTERN})
-]
-WELL_FORMED: Final = re.compile(JOB_ID_PATTERN)
 
 
 @router.get(
@@ -60,7 +56,8 @@ def list_jobs(
     found, more = engine.list(tenant, cursor=cursor, limit=limit, state=state)
     query = {"limit": limit, "cursor": more} | ({"state": state} if state else {})
     page = JobPage(
-        jobs=[view(job) for job in found], next=f"/v1/jobs?{urlencode(query)}" if more else None
+        jobs=[view(job, engine.forecast.seconds_left(job)) for job in found],
+        next=f"/v1/jobs?{urlencode(query)}" if more else None,
     )
     return Response(
         page.model_dump_json(),
@@ -69,27 +66,57 @@ def list_jobs(
     )
 
 
+JOB_HEADERS: Final = (
+    LOCATION
+    | PREFERENCE
+    | LATER
+    | {"ETag": header("Weak: changes whenever there is news of the job.")}
+)
+OUTSIDE: Final[Responses] = {
+    200: {"description": "There is news.", "headers": JOB_HEADERS},
+    304: {"description": "There is none.", "headers": JOB_HEADERS},
+    **problems("job_unknown"),
+}
+FOUND: Final[Responses] = {
+    **OUTSIDE,
+    200: {
+        "description": "The job.",
+        "model": Job,
+        "headers": JOB_HEADERS,
+        "links": job_links(),
+    },
+}
+
+
+@router.head(
+    "/v1/jobs/{job_id}",
+    operation_id="head_job",
+    summary="Look at a job from outside",
+    response_class=Response,
+    responses=OUTSIDE,
+    openapi_extra={"parameters": [PREFER]},
+)
 @router.get(
     "/v1/jobs/{job_id}",
     operation_id="get_job",
     summary="Look at a job",
-    responses={
-        200: {
-            "description": "The job.",
-            "model": Job,
-            "headers": LOCATION | PREFERENCE | LATER,
-            "links": job_links(),
-        },
-        **problems("job_unknown"),
-    },
+    responses=FOUND,
     openapi_extra={"parameters": [PREFER]},
 )
-async def get_job(request: Request, job_id: JobId, engine: Engine, tenant: Tenant) -> Response:
-    """How far it is; `Prefer: wait=N` waits for its end."""
-    job = await run_in_threadpool(find, engine, tenant, job_id)
+async def get_job(request: Request, job_id: JOB_ID, engine: Engine, tenant: Tenant) -> Response:
+    """How far it is; `Prefer: wait=N` waits for its end. Heeds If-None-Match."""
+    job = await run_in_threadpool(found_job, engine, tenant, job_id)
     seconds, applied = patience(request, 0)
     job = await waited(request, job, seconds, engine)
-    return job_answer(job, 200, {"Preference-Applied": applied} if applied else {})
+    etag = f'"{news_id(job)}"'
+    headers = {"ETag": f"W/{etag}", "Cache-Control": "private, no-cache"}
+    answer = job_answer(
+        job, engine, 200, headers | ({"Preference-Applied": applied} if applied else {})
+    )
+    if names(request.headers.get("if-none-match"), etag):
+        kept = {name: value for name, value in answer.headers.items() if "content" not in name}
+        return Response(status_code=304, headers=kept)
+    return answer
 
 
 @router.delete(
@@ -103,16 +130,16 @@ async def get_job(request: Request, job_id: JobId, engine: Engine, tenant: Tenan
             "model": Job,
             "headers": LOCATION,
         },
-        **problems("origin_refused", "job_unknown"),
+        **problems("origin_refused", "job_unknown", "storage_full"),
     },
 )
-def cancel_job(job_id: JobId, engine: Engine, tenant: Tenant) -> Response:
+def cancel_job(job_id: JOB_ID, engine: Engine, tenant: Tenant) -> Response:
     """Stops it wherever it is; a finished one stays as it is, and asking again does no harm."""
     job = engine.cancel(tenant, job_id) if WELL_FORMED.fullmatch(job_id) else None
     if job is None:
         raise ProblemError("job_unknown")
     return Response(
-        view(job).model_dump_json(),
+        view(job, engine.forecast.seconds_left(job)).model_dump_json(),
         status_code=303,
         headers={"Location": job_url(job.id), "Cache-Control": "no-store"},
         media_type="application/json",
@@ -156,21 +183,9 @@ RESULT: Final = {
     response_class=Response,
     responses=RESULT,
 )
-def get_result(request: Request, job_id: JobId, engine: Engine, tenant: Tenant) -> Response:
+def get_result(request: Request, job_id: JOB_ID, engine: Engine, tenant: Tenant) -> Response:
     """The file never changes."""
-    job = find(engine, tenant, job_id)
+    job = found_job(engine, tenant, job_id)
     require_succeeded(job)
     require_accepted(request, result(job).media_type)
     return picture(request, job, engine, {"Vary": "Accept"})
-
-
-def find(engine: EmbeddedEngine, tenant: str, job_id: str) -> records.Job:
-    """Return one of the tenant's jobs.
-
-    Raises:
-        ProblemError: There is none of this name, or it is somebody else's.
-    """
-    job = engine.get(tenant, job_id) if WELL_FORMED.fullmatch(job_id) else None
-    if job is None:
-        raise ProblemError("job_unknown")
-    return job

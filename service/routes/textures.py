@@ -10,6 +10,7 @@ from api_schemas.requests import TextureRequest
 from service.documentation import PREFER, SUBMITTED, json_request
 from service.engine_access import Configuration, Engine
 from service.examples import examples
+from service.idempotency import IdempotencyKey, key_of
 from service.json_body import body_of
 from service.submission import submitted
 from service.tenants import Tenant
@@ -34,10 +35,12 @@ async def create_texture(
     engine: Engine,
     settings: Configuration,
     tenant: Tenant,
+    idempotency_key: IdempotencyKey = None,
 ) -> Response:
     """Takes a specification, answers a job; or the picture itself where Accept prefers an image.
 
     A picture is waited for 30 seconds, or as long as `Prefer: wait=N` says; if it takes longer, the
     answer is the job.
     """
-    return await submitted(request, body, engine, settings, tenant)
+    key = key_of("/v1/textures", idempotency_key, body)
+    return await submitted(request, body, engine, settings, tenant, key)

@@ -17,7 +17,7 @@ from service.examples import examples
 from service.json_body import fitted, json_bytes, parsed
 from service.settings import Settings
 from service.tenants import Tenant
-from worker.jobs.engine import EmbeddedEngine
+from worker.jobs.queue import JobQueue
 
 router = APIRouter(tags=["pictures"])
 
@@ -63,7 +63,7 @@ async def validate(
     )
 
 
-def _validation(body: bytes, engine: EmbeddedEngine, settings: Settings, tenant: str) -> Validation:
+def _validation(body: bytes, engine: JobQueue, settings: Settings, tenant: str) -> Validation:
     value = parsed(body)
     scene = isinstance(value, dict) and "scene" in value
     asked = fitted(RenderRequest, value) if scene else fitted(TextureRequest, value)

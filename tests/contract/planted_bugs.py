@@ -115,7 +115,9 @@ def on_status(status: int, change: Callable[[Answer], Answer]) -> Callable[[Call
 
 ID = "0" * 32
 JOB = {
-    **dict.fromkeys(("position", "stage", "started", "finished", "result", "failure")),
+    **dict.fromkeys(
+        ("position", "stage", "eta_seconds", "started", "finished", "result", "failure")
+    ),
     "id": ID,
     "kind": "texture",
     "state": "queued",
@@ -124,7 +126,7 @@ JOB = {
     "attempt": 0,
     "progress": 0.0,
     "created": "2026-01-01T00:00:00Z",
-    "links": dict.fromkeys(("self", "cancel", "result"), f"/v1/jobs/{ID}"),
+    "links": dict.fromkeys(("self", "events", "cancel", "result"), f"/v1/jobs/{ID}"),
 }
 HEADERS = {b"location": b"/", b"retry-after": b"1", b"content-type": b"application/json"}
 TAKEN = Answer(202, HEADERS, json.dumps(JOB).encode())

@@ -13,6 +13,7 @@ def test_the_contract_and_the_engine_have_the_same_states_and_priorities():
 
 
 def test_the_contract_shows_every_fact_of_a_job_that_is_not_the_engines_own():
-    shown, own = set(jobs.Job.model_fields), {"tenant", "work_id", "facts"}
+    shown = set(jobs.Job.model_fields)
+    own = {"tenant", "work_id", "facts", "estimate_seconds"}
 
-    assert set(job.Job.__dataclass_fields__) - own == shown - {"result", "links"}
+    assert set(job.Job.__dataclass_fields__) - own == shown - {"result", "links", "eta_seconds"}

@@ -1,9 +1,13 @@
 import os
+import socket
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
+
+from service import __main__ as main
 
 ROOT = Path(__file__).parents[2]
 
@@ -26,3 +30,24 @@ def test_a_data_folder_that_cannot_be_is_told_in_one_line(tmp_path, place):
     assert ended.returncode == 1
     assert ended.stderr.startswith("texloom: cannot use the data folder")
     assert ended.stderr.count("\n") == 1
+
+
+def test_a_caller_that_reads_nothing_is_given_up(monkeypatch):
+    """The kernel ends a connection whose buffers stay full; what is written then fails."""
+    monkeypatch.setattr(main, "UNREAD_SECONDS", 1)
+    with main.listening("127.0.0.1", 0) as listener:
+        listener.listen()
+        with socket.create_connection(listener.getsockname()):
+            accepted, _ = listener.accept()
+            with accepted, pytest.raises(TimeoutError):
+                write_for(accepted, 20)
+
+
+def write_for(connection, seconds):
+    deadline = time.monotonic() + seconds
+    connection.setblocking(False)
+    while time.monotonic() < deadline:
+        try:
+            connection.send(bytes(1 << 16))
+        except BlockingIOError:
+            time.sleep(0.05)

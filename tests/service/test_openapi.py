@@ -67,7 +67,11 @@ def test_operations_have_names_and_links_name_operations():
 
     assert len(names) == len(set(names))
     assert all(name.islower() for name in names)
-    assert {"get_job", "cancel_job", "get_result", "get_asset", "delete_asset"} == linked
+    assert {
+        *("get_job", "cancel_job", "get_result", "get_events"),
+        *("get_batch", "cancel_batch", "get_manifest"),
+        *("get_asset", "delete_asset"),
+    } == linked
 
 
 @pytest.mark.parametrize("name", OPERATIONS)
@@ -87,7 +91,7 @@ def test_every_operation_is_explained_and_its_refusals_are_problems(name):
             codes = response["description"].split("`")[1::2]
             assert codes
             assert all(TABLE[code][0] == int(status) for code in codes)
-        if status in ("429", "503"):
+        if status in ("429", "503", "507"):
             assert "Retry-After" in response["headers"]
         if status in ("201", "202", "303"):
             assert "Location" in response["headers"]
@@ -99,7 +103,20 @@ def test_every_code_is_documented_but_those_that_no_operation_is_asked_for():
     text = json.dumps(DOCUMENT)
     undocumented = {code for code in TABLE if f"`{code}`" not in text}
 
-    assert undocumented == {"not_found", "method_not_allowed", "internal_error"}
+    assert undocumented == {
+        "not_found",
+        "method_not_allowed",
+        "internal_error",
+        "request_timeout",
+    }
+
+
+def test_events_are_described_as_what_they_are():
+    content = OPERATIONS["GET /v1/jobs/{job_id}/events"]["responses"]["200"]["content"]
+
+    assert list(content) == ["text/event-stream"]
+    event = content["text/event-stream"]["schema"]["properties"]
+    assert event["data"]["contentSchema"] == {"$ref": "#/components/schemas/Job"}
 
 
 def test_bodies_are_the_published_models_and_hold_examples():

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from sqlalchemy import Connection, String, cast, delete, insert, select, update
+from sqlalchemy import Connection, String, cast, delete, func, insert, select, update
 
 from worker.jobs.database import Database
+from worker.jobs.errors import StorageFullError
 from worker.jobs.files import half_file, make_folder, publish, settle, sweep_halves
 from worker.jobs.schema import assets, work
 
@@ -29,19 +30,39 @@ class Asset:
 class Assets:
     """The uploads of all tenants, in `folder/<first two digits>/<sha256>`."""
 
-    def __init__(self, folder: Path, database: Database) -> None:
+    def __init__(self, folder: Path, database: Database, bytes_limit: int = 20 << 30) -> None:
         self._folder = make_folder(folder)
         self._database = database
+        self._bytes_limit = bytes_limit
 
     @property
     def folder(self) -> Path:
         """Where executors find them."""
         return self._folder
 
-    def sweep(self) -> None:
-        """Remove half uploads, and files that no tenant has any more."""
+    @property
+    def bytes(self) -> int:
+        """What all uploads take together."""
+        with self._database.reading() as connection:
+            return _bytes(connection)
+
+    def sweep(self) -> int:
+        """Remove half uploads, and files that no tenant has any more or that have lost their end.
+
+        Returns:
+            How many uploads are missing now; their tenants have them no more.
+        """
         sweep_halves(self._folder)
-        self.drop_unwanted(path.name for path in self._folder.glob("??/*"))
+        lengths = {path.name: path.stat().st_size for path in self._folder.glob("??/*")}
+        with self._database.reading() as connection:
+            rows = connection.execute(select(assets.c.sha256, assets.c.bytes).distinct()).all()
+        lost = [row.sha256 for row in rows if lengths.get(row.sha256) != row.bytes]
+        for sha256 in lost:
+            with self._database.writing() as connection:
+                connection.execute(delete(assets).where(assets.c.sha256 == sha256))
+            self._path(sha256).unlink(missing_ok=True)
+        self.drop_unwanted(lengths)
+        return len(lost)
 
     def new_upload(self) -> Path:
         """A path to write an upload to; swept if it is never put, and the caller's to remove."""
@@ -54,7 +75,8 @@ class Assets:
             The asset; with its earlier facts, where the tenant had it already.
 
         Raises:
-            StorageFullError: the disk is full; the tenant does not have the asset.
+            StorageFullError: the disk is full, or the uploads together would be too long; the
+                tenant does not have the asset.
         """
         settle(upload)
         asset = Asset(sha256, facts, upload.stat().st_size, time.time())
@@ -64,6 +86,8 @@ class Assets:
             if path.is_file():
                 upload.unlink()
             else:
+                if _bytes(connection) + asset.bytes > self._bytes_limit:
+                    raise StorageFullError(f"all uploads may take {self._bytes_limit} bytes")
                 make_folder(path.parent)
                 publish(upload, path)
             if owned is not None:
@@ -126,6 +150,11 @@ class Assets:
 def mentioned_in(body: dict[str, Any]) -> set[str]:
     """Everything in a request that may name an asset."""
     return set(SHA256.findall(str(body)))
+
+
+def _bytes(connection: Connection) -> int:
+    files = select(assets.c.sha256, assets.c.bytes).distinct().subquery()
+    return int(connection.execute(select(func.sum(files.c.bytes))).scalar() or 0)
 
 
 def _is_wanted(connection: Connection, sha256: str) -> bool:

@@ -23,6 +23,7 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any, Protocol, cast
 
+from worker.jobs import log_lines
 from worker.stages import Report
 
 PR_SET_PDEATHSIG = 1
@@ -41,9 +42,14 @@ class Executor(Protocol):
         """Do one request, write its file at `out`, answer JSON-able facts."""
 
 
-def serve(connection: Connection, module: str, environment: Mapping[str, str]) -> None:
+def serve(
+    connection: Connection, module: str, environment: Mapping[str, str], reservable_bytes: int
+) -> None:
     """Warm the executor named `module` up and answer requests until the pipe closes."""
     become_expendable()
+    log_lines.install("warning")
+    # Not RLIMIT_AS: a shader compiler maps far more than it touches.
+    resource.setrlimit(resource.RLIMIT_DATA, (reservable_bytes, reservable_bytes))
     os.environ.update(environment)
     # A child starts no processes. Locks that libraries make under this method (numba makes one) are
     # nameless; those of a forkserver would outlive a killed child and be reported as leaked.
@@ -65,7 +71,8 @@ def serve(connection: Connection, module: str, environment: Mapping[str, str]) -
             request, out = json.loads(connection.recv_bytes())
         except (EOFError, OSError):
             return
-        _send(connection, *_answer(executor, request, Path(out), report))
+        with log_lines.telling(work=Path(out).name.partition(".")[0]):
+            _send(connection, *_answer(executor, request, Path(out), report))
 
 
 def become_expendable() -> None:

@@ -1,41 +1,41 @@
 """The embedded engine: records, files and slots of one data folder, behind one class."""
 
 import asyncio
-import fcntl
+import shutil
 import threading
 import time
-from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import IO, Any
 
+from worker.jobs import idempotency
 from worker.jobs.assets import Assets
+from worker.jobs.batches import Batches
 from worker.jobs.bell import Bell
 from worker.jobs.claims import Claims
 from worker.jobs.database import Database
 from worker.jobs.environment import child_environment
-from worker.jobs.errors import DataFolderInUseError, DrainingError
-from worker.jobs.files import keep_only, make_folder
+from worker.jobs.errors import DrainingError
+from worker.jobs.files import keep_only, lock_folder, make_folder
+from worker.jobs.forecast import Forecast
 from worker.jobs.forkserver import start_forkserver
+from worker.jobs.housekeeping import Housekeeping
+from worker.jobs.idempotency import Key
+from worker.jobs.intake import Request
 from worker.jobs.job import FINAL_STATES, Job, Priority, State
 from worker.jobs.line import Line
 from worker.jobs.measuring import Measuring
+from worker.jobs.meters import Meters
 from worker.jobs.migrations import upgrade
-from worker.jobs.requests import Request, Requests
-from worker.jobs.results import Results
+from worker.jobs.requests import Requests
+from worker.jobs.results import Limits, Results
+from worker.jobs.room import Room
+from worker.jobs.run_times import RunTimes
+from worker.jobs.settling import Desk
 from worker.jobs.slot import Slot
-from worker.jobs.slot_thread import Desk, SlotThread
-
-
-@dataclass(frozen=True, slots=True)
-class Readiness:
-    """How the engine is; `fingerprint` names the platform its children run on, once one is warm."""
-
-    slots: int
-    warm_slots: int
-    fingerprint: str | None
-    draining: bool
-    queued: int
-    running: int
+from worker.jobs.slot_thread import SlotThread
+from worker.jobs.status import Readiness, Status, StoreStatus, queues
+from worker.jobs.watch import Watch
 
 
 class EmbeddedEngine:
@@ -47,8 +47,12 @@ class EmbeddedEngine:
         data: folder of records, results, assets and caches; created if missing.
         slots: how much work is done at a time.
         queue_limit: how much work may wait.
+        tenant_queue_limit: how much of it may be one tenant's.
+        recycle_after: how many jobs a child does before a fresh one takes its place.
         time_limit_seconds: what a job may take unless it says otherwise.
         memory_limit_bytes: what a child may hold resident.
+        keep: how many results are kept, and for how long.
+        assets_bytes_limit: what all uploads may take together.
         executor: name of the module that does jobs.
         measurer: name of the module that measures uploads.
         gl: the children's OpenGL platform, `osmesa` or `egl`.
@@ -61,6 +65,10 @@ class EmbeddedEngine:
         *,
         slots: int = 2,
         queue_limit: int = 256,
+        tenant_queue_limit: int = 256,
+        recycle_after: int = 1000,
+        keep: Limits | None = None,
+        assets_bytes_limit: int = 20 << 30,
         time_limit_seconds: float = 600,
         memory_limit_bytes: int = 4 << 30,
         executor: str = "worker.run_job",
@@ -72,22 +80,55 @@ class EmbeddedEngine:
         self._environment = child_environment(data, gl=gl, native_cpu=native_cpu)
         self._time_limit_seconds = time_limit_seconds
         self._draining = threading.Event()
+        self._started = time.monotonic()
         self._bell = Bell()
+        self.meters = Meters()
         self._database = Database(data / "jobs.sqlite")
-        self._results = Results(data / "results")
-        self.assets = Assets(data / "assets", self._database)
-        self._claims = Claims(self._database)
+        self._results = Results(data / "results", keep)
+        self.assets = Assets(data / "assets", self._database, assets_bytes_limit)
+        self._housekeeping = Housekeeping(self._database, self._results, self.assets, self.meters)
+        self._claims = Claims(self._database, slots)
         self._line = Line(self._claims)
-        self._requests = Requests(
-            self._database, queue_limit=queue_limit, slots=slots, is_reusable=self._is_reusable
+        self._run_times = RunTimes()
+        room = Room(
+            queue_limit=queue_limit,
+            tenant_limit=tenant_queue_limit,
+            slots=slots,
+            run_times=self._run_times,
         )
-        desk = Desk(self._line, self._claims, self._results, self.assets, self._bell.ring)
+        self._requests = Requests(
+            self._database, room=room, meters=self.meters, is_reusable=self._is_reusable
+        )
+        self.batches = Batches(
+            self._database,
+            room=room,
+            is_reusable=self._is_reusable,
+            require_open=self._require_open,
+            arrived=partial(self._line.announce, slots),
+            unwanted=self._stop_unwanted,
+        )
+        self.forecast = Forecast(self._database, slots)
+        self.watch = Watch(self._requests.look)
+        self._database.on_write(self.watch.wake)
+        desk = Desk(
+            line=self._line,
+            claims=self._claims,
+            results=self._results,
+            assets=self.assets,
+            run_times=self._run_times,
+            meters=self.meters,
+            settled=self._bell.ring,
+            warming=threading.Lock(),
+        )
 
         def slot(module: str) -> Slot:
             return Slot(module, self._environment, memory_limit_bytes=memory_limit_bytes)
 
         self._lock: IO[bytes] | None = None
-        self._threads = [SlotThread(f"slot-{n}", slot(executor), desk) for n in range(slots)]
+        self._threads = [
+            SlotThread(f"slot-{n}", partial(slot, executor), desk, recycle_after)
+            for n in range(slots)
+        ]
         self._measuring = Measuring(slot(measurer), self.assets.folder)
 
     def start(self) -> None:
@@ -95,18 +136,21 @@ class EmbeddedEngine:
 
         Raises:
             DataFolderInUseError: another engine has the data folder.
+            RecordsError: its records are damaged, or of a newer version.
+            StorageFullError: the disk is full.
             RuntimeError: no forkserver was started, and this is not the main thread.
         """
         start_forkserver()
         self._lock = lock_folder(self._data)
-        upgrade(self._database)
-        self._claims.recover()
-        self._results.sweep()
-        self.assets.sweep()
-        keep_only(Path(self._environment["NUMBA_CACHE_DIR"]))
-        make_folder(Path(self._environment["MESA_SHADER_CACHE_DIR"]))
+        try:
+            self._take_over()
+        except BaseException:
+            self._let_go()
+            raise
         for thread in self._threads:
             thread.start()
+        self._housekeeping.start()
+        self.watch.start()
 
     def drain(self, timeout_seconds: float) -> None:
         """Take nothing new, finish what is running, and stop.
@@ -116,7 +160,7 @@ class EmbeddedEngine:
         self._draining.set()
         for thread in self._threads:
             thread.stop()
-        self._line.announce()
+        self._line.announce(len(self._threads))
         deadline = time.monotonic() + timeout_seconds
         for thread in self._threads:
             thread.join(max(0.0, deadline - time.monotonic()))
@@ -125,9 +169,9 @@ class EmbeddedEngine:
         for thread in self._threads:
             thread.join()
         self._measuring.close()
-        self._database.close()
-        if self._lock is not None:
-            self._lock.close()
+        self._housekeeping.stop()
+        self.watch.close()
+        self._let_go()
 
     def submit(
         self,
@@ -138,20 +182,37 @@ class EmbeddedEngine:
         tenant: str,
         priority: Priority = "interactive",
         time_limit_seconds: float | None = None,
+        estimate_seconds: float | None = None,
+        key: Key | None = None,
     ) -> Job:
         """Record a job, which is succeeded at once if the tenant has a result of the digest.
+
+        With a key that was sent before it answers the job that was recorded then.
 
         Raises:
             DrainingError: the engine is stopping.
             QueueFullError: too much is waiting.
             StorageFullError: the disk is full.
+            KeyReusedError: the key came with another body before.
         """
-        if self._draining.is_set():
-            raise DrainingError("the engine is stopping")
+        self._require_open()
         limit = self._time_limit_seconds if time_limit_seconds is None else time_limit_seconds
-        job = self._requests.submit(Request(tenant, kind, body, digest, priority, limit))
+        request = Request(tenant, kind, body, digest, priority, limit, estimate_seconds)
+        job = self._requests.submit(request, key)
         if job.state == "queued":
             self._line.announce()
+        self._database.flush()  # a slot is at it already
+        return job
+
+    def replayed(self, tenant: str, key: Key) -> Job | None:
+        """The job that a key stands for; None if it is new.
+
+        Raises:
+            KeyReusedError: the key came with another body before.
+        """
+        job = self._requests.replayed(tenant, key)
+        if job is not None:
+            self._database.flush()  # whoever recorded it may not have come to that yet
         return job
 
     def get(self, tenant: str, job_id: str) -> Job | None:
@@ -176,28 +237,25 @@ class EmbeddedEngine:
         """Cancel a job; one that is finished stays as it is."""
         job = self._requests.cancel(tenant, job_id)
         if job is not None and job.state == "cancelled":
-            if not self._claims.is_live(job.work_id):
-                self._line.cancel(job.work_id)
-            self._bell.ring(job.work_id)
+            self._stop_unwanted(job.work_id)
         return job
 
-    async def finished(self, tenant: str, job_id: str, timeout_seconds: float) -> Job | None:
-        """The job as soon as it is finished, or as it is when the time is up."""
-        job = await asyncio.to_thread(self.get, tenant, job_id)
-        if job is None or job.state in FINAL_STATES:
-            return job
+    async def finished(self, job: Job, timeout_seconds: float) -> Job:
+        """A job as soon as it is finished, or as it is when the time is up."""
         deadline = asyncio.get_running_loop().time() + timeout_seconds
         with self._bell.listening(job.work_id) as rung:
-            while True:
+            while job.state not in FINAL_STATES:
                 rung.clear()
-                job = await asyncio.to_thread(self.get, tenant, job_id)
-                if job is None or job.state in FINAL_STATES:
-                    return job
+                known = await asyncio.to_thread(self.get, job.tenant, job.id)
+                job = known or job
+                if job.state in FINAL_STATES:
+                    break
                 try:
                     async with asyncio.timeout_at(deadline):
                         await rung.wait()
                 except TimeoutError:
-                    return job
+                    break
+        return job
 
     def result_path(self, job: Job) -> Path | None:
         """The result of a succeeded job; None when it was evicted."""
@@ -217,7 +275,7 @@ class EmbeddedEngine:
         return self._measuring.measure(path, time_limit_seconds, media_type)
 
     def ready(self) -> Readiness:
-        """What an operator wants to know."""
+        """Whether work would be done."""
         counts = self._claims.counts()
         return Readiness(
             slots=len(self._threads),
@@ -228,6 +286,49 @@ class EmbeddedEngine:
             running=counts.get("running", 0),
         )
 
+    def status(self) -> Status:
+        """How it is, for people and meters."""
+        return Status(
+            draining=self._draining.is_set(),
+            uptime_seconds=time.monotonic() - self._started,
+            fingerprint=self._fingerprint(),
+            typical_seconds=self._run_times.typical(),
+            queues=queues(self._database),
+            slots=tuple(thread.status() for thread in self._threads),
+            store=StoreStatus(
+                result_bytes=self._results.bytes,
+                results=self._results.count,
+                asset_bytes=self.assets.bytes,
+                free_bytes=shutil.disk_usage(self._data).free,
+            ),
+        )
+
+    def _take_over(self) -> None:
+        """Bring records and files in step with each other and with this version."""
+        self._database.check()
+        upgrade(self._database)
+        self._claims.recover()
+        self._run_times.recall(self._database)
+        idempotency.sweep(self._database)
+        self._housekeeping.check()
+        keep_only(Path(self._environment["NUMBA_CACHE_DIR"]))
+        make_folder(Path(self._environment["MESA_SHADER_CACHE_DIR"]))
+
+    def _let_go(self) -> None:
+        self._database.close()
+        if self._lock is not None:
+            self._lock.close()
+
+    def _require_open(self) -> None:
+        if self._draining.is_set():
+            raise DrainingError("the engine is stopping")
+
+    def _stop_unwanted(self, work_id: str) -> None:
+        """Stop work if no job wants it any more, and tell those who wait for it."""
+        if not self._claims.is_live(work_id):
+            self._line.cancel(work_id)
+        self._bell.ring(work_id)
+
     def _fingerprint(self) -> str | None:
         return next((one.fingerprint for one in self._threads if one.fingerprint), None)
 
@@ -236,18 +337,3 @@ class EmbeddedEngine:
         return self._fingerprint() in (None, fingerprint) and (
             self._results.find(work_id) is not None
         )
-
-
-def lock_folder(data: Path) -> IO[bytes]:
-    """Make the data folder this process's own until the answer is closed.
-
-    Raises:
-        DataFolderInUseError: another engine has it.
-    """
-    lock = (data / "lock").open("ab")
-    try:
-        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError as error:
-        lock.close()
-        raise DataFolderInUseError(f"another service uses {data}") from error
-    return lock

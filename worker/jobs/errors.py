@@ -2,9 +2,13 @@
 
 JobsError
 ├── QueueFullError        too much is waiting; carries the seconds after which to try again
+│   └── TenantFullError   too much of this tenant is
 ├── DrainingError         the engine is stopping and takes nothing new
 ├── StorageFullError      the disk that holds the data folder is full
+├── KeyReusedError        an idempotency key came with another body before
 ├── DataFolderInUseError  another service owns the data folder
+├── RecordsError          the records cannot be read: damaged, or of a newer version
+├── RecordsBusyError      another program holds the records' lock, a backup say
 ├── SlotError             a child could not be started or warmed
 └── MeasuringError        an upload cannot be used; carries the failure as data
 """
@@ -29,6 +33,10 @@ class QueueFullError(JobsError):
         self.retry_after_seconds = retry_after_seconds
 
 
+class TenantFullError(QueueFullError):
+    """One tenant has as much waiting as it may."""
+
+
 class DrainingError(JobsError):
     """The engine is stopping."""
 
@@ -37,8 +45,20 @@ class StorageFullError(JobsError):
     """There is no room left for records or files."""
 
 
+class KeyReusedError(JobsError):
+    """An idempotency key stands for another request already."""
+
+
 class DataFolderInUseError(JobsError):
     """One service per data folder; another one holds its lock."""
+
+
+class RecordsError(JobsError):
+    """The records were damaged, or written by a newer version."""
+
+
+class RecordsBusyError(JobsError):
+    """Somebody else writes to the records, and does not stop."""
 
 
 class SlotError(JobsError):

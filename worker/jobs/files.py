@@ -1,13 +1,14 @@
 """Files that are either whole and durable, or not there at all."""
 
+import fcntl
 import os
 import shutil
 import uuid
 from pathlib import Path
-from typing import Final
+from typing import IO, Final
 
 from worker.jobs.child import FULL_DISK
-from worker.jobs.errors import StorageFullError
+from worker.jobs.errors import DataFolderInUseError, StorageFullError
 
 HALF: Final = ".part"
 
@@ -58,3 +59,18 @@ def keep_only(folder: Path) -> None:
         if other != folder:
             shutil.rmtree(other, ignore_errors=True)
     make_folder(folder)
+
+
+def lock_folder(data: Path) -> IO[bytes]:
+    """Make the data folder this process's own until the answer is closed.
+
+    Raises:
+        DataFolderInUseError: another engine has it.
+    """
+    lock = (data / "lock").open("ab")
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError as error:
+        lock.close()
+        raise DataFolderInUseError(f"another service uses {data}") from error
+    return lock

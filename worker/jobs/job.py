@@ -19,7 +19,7 @@ class Job:
     `work_id` names the work behind it, which other jobs of the tenant may share. `attempt`,
     `progress` (0..1) and `stage` are the work's; `failure` is there when the state is failed,
     `facts` (what the executor answered) when it is succeeded, `position` (1 = next) while it is
-    queued.
+    queued. `estimate_seconds` is what the cost model expected of the work, on one core.
     """
 
     id: str
@@ -37,4 +37,5 @@ class Job:
     failure: Failure | None
     facts: dict[str, Any] | None
     position: int | None
+    estimate_seconds: float | None
     work_id: str

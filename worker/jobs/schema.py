@@ -6,6 +6,7 @@ that nobody's cancellation takes away what somebody else waits for.
 
 from sqlalchemy import (
     JSON,
+    Boolean,
     Column,
     Float,
     ForeignKey,
@@ -14,6 +15,7 @@ from sqlalchemy import (
     MetaData,
     String,
     Table,
+    false,
     text,
 )
 
@@ -41,8 +43,11 @@ work = Table(
     Column("created", Float, nullable=False),
     Column("started", Float),
     Column("finished", Float),
+    Column("evicted", Float),  # when its result was removed, or found missing
+    Column("estimate_seconds", Float),  # what the cost model expected, on one core
+    Column("in_batch", Boolean, nullable=False, server_default=false()),
     Index("work_by_id", "id", unique=True),
-    Index("work_in_line", "state", "priority", "sequence"),
+    Index("work_in_turn", "state", "priority", "tenant", "sequence"),
     Index("work_by_digest", "tenant", "digest"),
     Index(
         "work_in_single_flight",
@@ -78,4 +83,38 @@ assets = Table(
     Column("bytes", Integer, nullable=False),
     Column("created", Float, nullable=False),
     Index("assets_by_sha256", "sha256"),
+)
+
+batches = Table(
+    "batches",
+    metadata,
+    Column("sequence", Integer, primary_key=True),
+    Column("id", String(32), nullable=False),
+    Column("tenant", String(64), nullable=False),
+    Column("size", Integer, nullable=False),
+    Column("created", Float, nullable=False),
+    Index("batches_by_id", "id", unique=True),
+    Index("batches_of_tenant", "tenant", "sequence"),
+)
+
+batch_items = Table(
+    "batch_items",
+    metadata,
+    Column("batch_id", String(32), ForeignKey("batches.id"), primary_key=True),
+    Column("place", Integer, primary_key=True),  # from 0, in the order of the request
+    Column("job_id", String(32), ForeignKey("jobs.id"), nullable=False),
+    Column("values", JSON(none_as_null=True)),  # of a sweep, by pointer
+    Index("batch_items_by_job", "job_id", unique=True),
+)
+
+idempotency_keys = Table(
+    "idempotency_keys",
+    metadata,
+    Column("tenant", String(64), primary_key=True),
+    Column("route", String(64), primary_key=True),
+    Column("key", String(255), primary_key=True),
+    Column("fingerprint", String(64), nullable=False),  # of the body it came with
+    Column("answer", String(32), nullable=False),  # the id of the job or batch that was made
+    Column("created", Float, nullable=False),
+    Index("idempotency_keys_by_age", "created"),
 )

@@ -28,6 +28,7 @@ Status = Literal["ok", "failed", "crashed", "timed_out", "memory_exceeded", "can
 
 TICK_SECONDS: Final = 0.025
 LONGEST_ANSWER_BYTES: Final = 1 << 20
+RESERVABLE: Final = 2
 PAGE_BYTES: Final = os.sysconf("SC_PAGE_SIZE")
 
 
@@ -46,7 +47,8 @@ class Slot:
     Args:
         module: name of the executor module, imported by the child alone.
         environment: variables set in the child before that import.
-        memory_limit_bytes: resident memory beyond which the child is killed.
+        memory_limit_bytes: resident memory beyond which the child is killed. It may reserve
+            twice that, so that one huge allocation fails instead of outrunning the watch.
         warm_limit_seconds: time a child may take to become warm.
     """
 
@@ -91,11 +93,17 @@ class Slot:
         with self._changing:
             if self._closed:
                 raise SlotError("the slot is closed")
-            arguments = (theirs, self._module, self._environment)
+            reservable = RESERVABLE * self._memory_limit_bytes
+            arguments = (theirs, self._module, self._environment, reservable)
             process = CONTEXT.Process(target=serve, args=arguments, daemon=True)
-            process.start()
+            try:
+                process.start()
+            except (OSError, EOFError) as error:  # the forkserver was killed, or cannot fork
+                ours.close()
+                raise SlotError(f"no process could be forked: {error}") from error
+            finally:
+                theirs.close()
             self._process, self._connection = process, ours
-        theirs.close()
         outcome = self._listen("warm", self._warm_limit_seconds)
         if outcome.facts is None:
             self.kill()

@@ -11,7 +11,11 @@ from worker.jobs.database import Database
 from worker.jobs.engine import EmbeddedEngine
 from worker.jobs.forkserver import start_forkserver
 from worker.jobs.job import FINAL_STATES
+from worker.jobs.meters import Meters
 from worker.jobs.migrations import upgrade
+from worker.jobs.requests import Requests
+from worker.jobs.room import Room
+from worker.jobs.run_times import RunTimes
 
 EXECUTORS = str(Path(__file__).parent / "executors")
 
@@ -71,6 +75,27 @@ def database(tmp_path):
     upgrade(database)
     yield database
     database.close()
+
+
+@pytest.fixture
+def make_requests(database):
+    """Makes the callers' side of the records, with room and run times as a test wants them."""
+
+    def make(*, queue_limit=9, tenant_limit=9, slots=1, run_times=None, is_reusable=None):
+        room = Room(
+            queue_limit=queue_limit,
+            tenant_limit=tenant_limit,
+            slots=slots,
+            run_times=run_times or RunTimes(),
+        )
+        return Requests(
+            database,
+            room=room,
+            meters=Meters(),
+            is_reusable=is_reusable or (lambda *_: False),
+        )
+
+    return make
 
 
 @pytest.fixture

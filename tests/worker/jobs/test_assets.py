@@ -6,7 +6,7 @@ from worker.jobs import files
 from worker.jobs.assets import Assets
 from worker.jobs.claims import Claims
 from worker.jobs.errors import StorageFullError
-from worker.jobs.requests import Request, Requests
+from worker.jobs.intake import Request
 
 CONTENT = b"picture"
 SHA256 = hashlib.sha256(CONTENT).hexdigest()
@@ -64,8 +64,8 @@ def test_the_last_owner_takes_the_file_along(assets, put, tmp_path):
     assert files_in(tmp_path / "assets") == []
 
 
-def test_a_file_stays_while_work_may_read_it(assets, put, database, tmp_path):
-    requests = Requests(database, queue_limit=9, slots=1, is_reusable=lambda *_: False)
+def test_a_file_stays_while_work_may_read_it(assets, put, database, make_requests, tmp_path):
+    requests = make_requests()
     claims = Claims(database)
     put("a")
     body = {"texture": {"inputs": [{"asset": SHA256}]}}

@@ -1,7 +1,7 @@
 import pytest
 
 from worker.jobs.claims import MOST_ATTEMPTS, Claims
-from worker.jobs.requests import Request, Requests
+from worker.jobs.intake import Request
 
 LOST = {"code": "worker_lost", "message": "gone", "pointer": None}
 
@@ -12,8 +12,8 @@ def claims(database):
 
 
 @pytest.fixture
-def requests(database):
-    return Requests(database, queue_limit=9, slots=1, is_reusable=lambda *_: False)
+def requests(make_requests):
+    return make_requests()
 
 
 @pytest.fixture

@@ -1,19 +1,97 @@
+import errno
+import os
+import sqlite3
 import threading
+import time
+from pathlib import Path
 
 import pytest
 from sqlalchemy import insert, select, text
+from sqlalchemy.exc import OperationalError
 
+from worker.jobs import database as database_module
 from worker.jobs.errors import StorageFullError
 from worker.jobs.schema import assets
 
 ROW = {"tenant": "a", "facts": {}, "bytes": 1, "created": 0.0}
 
 
-def test_a_commit_is_on_the_disk_before_it_is_answered(database):
+@pytest.fixture
+def flushes(monkeypatch, tmp_path):
+    """The files that are flushed, with how long each was at that time."""
+    seen = []
+    fsync = os.fsync
+
+    def note(descriptor):
+        path = Path(f"/proc/self/fd/{descriptor}").readlink()
+        seen.append((path.name, path.stat().st_size))
+        fsync(descriptor)
+
+    monkeypatch.setattr(database_module.os, "fsync", note)
+    return seen
+
+
+def write(database, sha256, **options):
+    with database.writing(**options) as connection:
+        connection.execute(insert(assets).values(ROW | {"sha256": sha256}))
+
+
+def test_a_commit_is_on_the_disk_before_it_is_answered(database, flushes, tmp_path):
+    """The write-ahead log holds all of it when it is flushed, and it is flushed."""
+    log = tmp_path / "jobs.sqlite-wal"
+    before = log.stat().st_size
+    write(database, "x")
+    assert log.stat().st_size > before
+    assert flushes == [(log.name, log.stat().st_size)]
     with database.reading() as connection:
         assert connection.execute(text("PRAGMA journal_mode")).scalar() == "wal"
-        assert connection.execute(text("PRAGMA synchronous")).scalar() == 2  # FULL
         assert connection.execute(text("PRAGMA foreign_keys")).scalar() == 1
+
+
+def test_what_need_not_survive_a_power_cut_is_not_flushed(database, flushes):
+    write(database, "x", durably=False)
+    assert flushes == []
+    database.flush()
+    assert len(flushes) == 1
+
+
+def test_a_flush_holds_up_no_writer_and_serves_all_who_wait_for_the_next(database, monkeypatch):
+    begun, go_on, count = threading.Event(), threading.Event(), []
+
+    def slow(_descriptor):
+        count.append(1)
+        begun.set()
+        assert go_on.wait(10)
+
+    monkeypatch.setattr(database_module.os, "fsync", slow)
+    threads = [threading.Thread(target=write, args=(database, str(n))) for n in range(9)]
+    threads[0].start()
+    assert begun.wait(10)
+    for thread in threads[1:]:
+        thread.start()
+    deadline = time.monotonic() + 10
+    while rows(database) < 9:
+        assert time.monotonic() < deadline
+    time.sleep(0.05)  # the last one to commit has yet to ask for its flush
+    go_on.set()
+    for thread in threads:
+        thread.join()
+    assert len(count) == 2
+
+
+def test_a_flush_that_fails_is_told_to_everybody(database, monkeypatch):
+    def full(_descriptor):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(database_module.os, "fsync", full)
+    for _ in range(2):
+        with pytest.raises(StorageFullError):
+            database.flush()
+
+
+def rows(database):
+    with database.reading() as connection:
+        return len(connection.execute(select(assets)).all())
 
 
 def test_readers_do_not_wait_for_a_writer_and_see_what_was_committed(database):
@@ -60,3 +138,12 @@ def test_a_full_disk_is_told_as_such_and_changes_nothing(database):
         connection.execute(insert(assets).values(ROW | {"sha256": "x", "facts": {"a": "b" * 9999}}))
     with database.reading() as connection:
         assert connection.execute(select(assets)).all() == []
+
+
+@pytest.mark.parametrize("code", [sqlite3.SQLITE_IOERR_WRITE, sqlite3.SQLITE_IOERR_SHMSIZE])
+def test_a_quota_is_a_full_disk_too(database, code):
+    """SQLite knows no quota, and calls it an input or output error."""
+    error = sqlite3.OperationalError("disk I/O error")
+    error.sqlite_errorcode = code
+    with pytest.raises(StorageFullError), database.reading():
+        raise OperationalError("", {}, error)

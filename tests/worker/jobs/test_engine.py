@@ -8,7 +8,7 @@ from worker.jobs.errors import DataFolderInUseError, DrainingError, QueueFullErr
 
 
 def wait(engine, job, seconds=30.0):
-    return asyncio.run(engine.finished(job.tenant, job.id, seconds))
+    return asyncio.run(engine.finished(job, seconds))
 
 
 def test_a_job_is_queued_done_and_its_result_kept(engine, submit):
@@ -75,15 +75,13 @@ def test_waiting_ends_with_the_job_or_the_time(engine, submit):
 
     async def all_of_them():
         return await asyncio.gather(
-            *(engine.finished("local", quick.id, 30) for _ in range(50)),
-            engine.finished("local", "0" * 32, 30),
-            engine.finished("local", slow.id, 0.2),
+            *(engine.finished(quick, 30) for _ in range(50)),
+            engine.finished(slow, 0.2),
         )
 
-    *quickly, unknown, slowly = asyncio.run(all_of_them())
+    *quickly, slowly = asyncio.run(all_of_them())
     assert {job.state for job in quickly} == {"succeeded"}
     assert slowly.state in ("queued", "running")
-    assert unknown is None
 
 
 def test_waiting_ends_with_a_cancellation(engine, submit, begin):
@@ -91,7 +89,7 @@ def test_waiting_ends_with_a_cancellation(engine, submit, begin):
     begin(engine, job)
 
     async def cancel_meanwhile():
-        waiting = asyncio.create_task(engine.finished("local", job.id, 30))
+        waiting = asyncio.create_task(engine.finished(job, 30))
         await asyncio.sleep(0.1)
         await asyncio.to_thread(engine.cancel, "local", job.id)
         async with asyncio.timeout(5):

@@ -1,13 +1,15 @@
 """What happens to jobs when children, files and callers do their worst."""
 
+import itertools
 import os
 import signal
+import time
 
 import pytest
 
 from worker.jobs import files
 from worker.jobs.claims import Claims
-from worker.jobs.errors import StorageFullError
+from worker.jobs.errors import RecordsBusyError, StorageFullError
 
 
 def halves(tmp_path):
@@ -107,14 +109,17 @@ def test_a_disk_that_is_full_in_the_child_is_told(engine, submit, finish):
 
 
 def test_a_disk_that_is_full_while_publishing_is_told(
-    engine, submit, finish, monkeypatch, tmp_path
+    engine, submit, begin, finish, monkeypatch, tmp_path
 ):
     def fail(descriptor):
         raise OSError(28, "No space left on device")
 
+    gate = tmp_path / "gate"
+    job = begin(engine, submit(engine, do="wait", gate=str(gate)))
     with monkeypatch.context() as patch:
         patch.setattr(files.os, "fsync", fail)
-        failed = finish(engine, submit(engine, do="nothing"))
+        gate.touch()
+        failed = finish(engine, job)
     assert failed.failure["code"] == "storage_full"
     assert list((tmp_path / "data" / "results").iterdir()) == []
     assert finish(engine, submit(engine, do="nothing")).state == "succeeded"
@@ -173,3 +178,50 @@ def test_assets_that_were_deleted_under_running_work_go_with_its_end(
     gate.touch()
     finish(engine, job)
     wait_until(lambda: not path.exists(), 5)
+
+
+@pytest.mark.parametrize(("factor", "state"), [(1.5, "succeeded"), (2.5, "failed")])
+def test_a_child_may_reserve_twice_its_memory_and_no_more(
+    make_engine, submit, finish, factor, state
+):
+    """One huge allocation is refused when it is made, before the watch could see it."""
+    limit = 300 << 20
+    engine = make_engine(memory_limit_bytes=limit)
+    done = finish(engine, submit(engine, do="reserve", bytes=int(factor * limit)))
+    assert done.state == state
+    assert finish(engine, submit(engine, do="nothing")).state == "succeeded"
+
+
+def test_an_outcome_waits_for_records_that_somebody_else_holds(
+    engine, submit, begin, finish, tmp_path, monkeypatch
+):
+    """As during a backup: the finished picture is neither lost nor made again."""
+    gate = tmp_path / "gate"
+    job = begin(engine, submit(engine, do="wait", gate=str(gate)))
+    refusals = []
+    succeed = Claims.succeed
+
+    def refuse_twice(self, *arguments):
+        if len(refusals) < 2:
+            refusals.append(arguments)
+            raise RecordsBusyError
+        return succeed(self, *arguments)
+
+    monkeypatch.setattr(Claims, "succeed", refuse_twice)
+    gate.touch()
+    done = finish(engine, job)
+    assert (done.state, done.attempt, len(refusals)) == ("succeeded", 1, 2)
+
+
+def test_a_jumping_clock_harms_nothing(make_engine, submit, finish, monkeypatch):
+    """Run times, waits and limits are told by a clock that cannot jump."""
+    jumps = itertools.cycle([0.0, 4e8, -4e8])
+    true_time = time.time
+    monkeypatch.setattr(time, "time", lambda: true_time() + next(jumps))
+    engine = make_engine()
+    jobs = [submit(engine, do="sleep", seconds=0.05) for _ in range(10)]
+    assert {finish(engine, job).state for job in jobs} == {"succeeded"}
+    typical = engine.status().typical_seconds
+    assert 0.05 <= typical < 5
+    assert finish(engine, submit(engine, limit=0.3, do="stuck")).failure["code"] == "timed_out"
+    assert all(engine.result_path(engine.get("local", job.id)) for job in jobs)

@@ -5,6 +5,7 @@ from sqlalchemy import inspect, text
 
 from worker.jobs import migrations
 from worker.jobs.database import Database
+from worker.jobs.errors import RecordsError
 from worker.jobs.migrations import upgrade
 from worker.jobs.schema import metadata
 
@@ -39,3 +40,13 @@ def test_a_migration_that_fails_leaves_nothing_behind(tmp_path, monkeypatch):
     with database.reading() as connection:
         assert inspect(connection).get_table_names() == []
     database.close()
+
+
+def test_tables_of_a_newer_version_are_told_and_left_alone(database):
+    with database.writing() as connection:
+        connection.execute(text("UPDATE alembic_version SET version_num = 'r0999'"))
+    with pytest.raises(RecordsError, match=r"newer version.*r0999"):
+        upgrade(database)
+    with database.reading() as connection:
+        found = connection.execute(text("SELECT version_num FROM alembic_version")).scalar()
+    assert found == "r0999"

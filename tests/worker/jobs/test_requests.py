@@ -3,8 +3,9 @@ import time
 import pytest
 
 from worker.jobs.claims import Claims
-from worker.jobs.errors import QueueFullError
-from worker.jobs.requests import Request, Requests
+from worker.jobs.errors import QueueFullError, TenantFullError
+from worker.jobs.intake import Request
+from worker.jobs.run_times import RunTimes
 
 
 @pytest.fixture
@@ -19,10 +20,28 @@ def reusable():
 
 
 @pytest.fixture
-def requests(database, reusable):
-    return Requests(
-        database, queue_limit=3, slots=2, is_reusable=lambda _, fingerprint: fingerprint in reusable
+def requests(make_requests, reusable):
+    return make_requests(
+        queue_limit=3, slots=2, is_reusable=lambda _, fingerprint: fingerprint in reusable
     )
+
+
+@pytest.fixture
+def run_times_of(monkeypatch):
+    """Run times as after work that took so many seconds."""
+
+    def run_times_of(*seconds):
+        run_times = RunTimes()
+        now = [1000.0]
+        monkeypatch.setattr(time, "monotonic", lambda: now[0])
+        for number, took in enumerate(seconds):
+            run_times.begin(str(number))
+            now[0] += took
+            assert run_times.end(str(number), counts=True) == took
+        monkeypatch.undo()
+        return run_times
+
+    return run_times_of
 
 
 def request(digest, tenant="a", priority="interactive"):
@@ -148,19 +167,31 @@ def test_a_full_queue_refuses_new_work_only(requests, claims):
     requests.submit(request("w"))
 
 
-def test_retry_after_is_what_recent_work_took(requests, claims, monkeypatch):
-    """Two slots and 30 s each: a place comes free every 15 s."""
-    with monkeypatch.context() as patch:
-        patch.setattr(time, "time", lambda: 1000.0)
-        requests.submit(request("v"))
-        claim = claims.claim()
-        patch.setattr(time, "time", lambda: 1030.0)
-        claims.succeed(claim, {}, "here", lambda: None)
-    for digest in "xyz":
-        requests.submit(request(digest))
+@pytest.mark.parametrize(
+    ("slots", "priority", "seconds"),
+    [(1, "interactive", 30), (2, "interactive", 15), (3, "interactive", 10), (3, "batch", 15)],
+)
+def test_retry_after_is_when_work_that_takes_what_recent_work_took_makes_room(
+    make_requests, run_times_of, slots, priority, seconds
+):
+    """30 s each: a place comes free when one ends, on each slot that this priority may use."""
+    requests = make_requests(queue_limit=0, slots=slots, run_times=run_times_of(20.0, 40.0))
     with pytest.raises(QueueFullError) as refusal:
-        requests.submit(request("w"))
-    assert refusal.value.retry_after_seconds == 15
+        requests.submit(request("w", priority=priority))
+    assert refusal.value.retry_after_seconds == seconds
+
+
+def test_a_tenant_may_have_so_much_waiting_and_leaves_room_to_others(make_requests, run_times_of):
+    requests = make_requests(queue_limit=9, tenant_limit=2, slots=2, run_times=run_times_of(30.0))
+    for digest in "xy":
+        requests.submit(request(digest))
+    with pytest.raises(TenantFullError) as alone:
+        requests.submit(request("z"))
+    requests.submit(request("z", tenant="b"))
+    with pytest.raises(TenantFullError) as one_of_two:
+        requests.submit(request("z"))
+    assert alone.value.retry_after_seconds == 15
+    assert one_of_two.value.retry_after_seconds == 30  # every other turn is the other one's
 
 
 def test_pages_are_newest_first_and_complete(requests, claims):

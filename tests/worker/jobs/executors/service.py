@@ -22,9 +22,9 @@ def main():
         "variables": [],
     }
     job = engine.submit("texture", body, "d" * 64, tenant="local")
+    signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGTERM, signal.SIGUSR1})
     sys.stdout.write(f"{job.id}\n")
     sys.stdout.flush()
-    signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGTERM, signal.SIGUSR1})
     if signal.sigwait({signal.SIGTERM, signal.SIGUSR1}) == signal.SIGTERM:
         engine.drain(30)
         job = engine.get("local", job.id)

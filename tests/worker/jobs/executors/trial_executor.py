@@ -2,6 +2,7 @@
 
 import ctypes
 import errno
+import mmap
 import os
 import signal
 import sys
@@ -120,6 +121,13 @@ def _hog(body, out, report):
         time.sleep(0.005)
 
 
+def _reserve(body, out, report):
+    """Much at once, and none of it touched: nobody who looks at resident memory sees it."""
+    held = mmap.mmap(-1, body["bytes"], flags=mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS)
+    time.sleep(0.2)
+    held.close()
+
+
 def _fill_disk(body, out, report):
     raise OSError(errno.ENOSPC, "No space left on device")
 
@@ -155,6 +163,7 @@ _DO = {
     "stumble": _stumble,
     "exhaust": _exhaust,
     "hog": _hog,
+    "reserve": _reserve,
     "fill disk": _fill_disk,
     "no file": _no_file,
     "not json": _not_json,
