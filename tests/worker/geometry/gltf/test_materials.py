@@ -204,7 +204,8 @@ def test_a_picture_without_alpha_leaves_opacity_to_the_factor() -> None:
     material = {"pbrMetallicRoughness": core, "alphaMode": "BLEND"}
 
     assert surface_of(material, picture=OPAQUE).opacity == 0.4
-    assert isinstance(surface_of(material, picture=CLEAR).opacity, NumberMap)
+    for picture in (CLEAR, png(transparent=True)):
+        assert isinstance(surface_of(material, picture=picture).opacity, NumberMap)
 
 
 def test_unlit_shows_the_base_colour_and_keeps_opacity_and_sides() -> None:

@@ -222,6 +222,15 @@ def test_an_index_beyond_the_vertices_is_refused_where_it_stands() -> None:
         read(builder.glb(), {})
 
 
+def test_the_index_that_would_restart_a_primitive_is_refused() -> None:
+    builder = Builder()
+    builder.mesh(np.zeros((65536, 3)), [0, 1, 65535])
+    builder.json |= shown(0)
+
+    with pytest.raises(UnusableAssetError, match="restart"):
+        read(builder.glb(), {})
+
+
 @pytest.mark.parametrize(
     ("attributes", "word"),
     [
@@ -273,6 +282,7 @@ def arm() -> Builder:
     builder.add("skins", {"joints": [1, 2], "inverseBindMatrices": bind})
     attributes = {
         "NORMAL": builder.accessor([[1, 0, 0]] * 3),
+        "TANGENT": builder.accessor([[0, 1, 0, 1]] * 3),
         "JOINTS_0": builder.accessor([[0, 1, 0, 0]] * 3, "<u1"),
         "WEIGHTS_0": builder.accessor([[0, 1, 0, 0], [2, 0, 0, 0], [0, 0, 0, 0]]),
     }
@@ -293,6 +303,9 @@ def test_a_skin_at_rest_follows_its_joints_and_not_its_node() -> None:
         np.array([[-2, 1, 0], [0, 3, 0], [1, 1, 0]]), abs=1e-6
     )
     assert part.mesh.normals == pytest.approx(np.array([[0, 1, 0], [1, 0, 0], [1, 0, 0]]), abs=1e-6)
+    assert part.mesh.tangents == pytest.approx(
+        np.array([[-1, 0, 0, 1], [0, 1, 0, 1], [0, 1, 0, 1]]), abs=1e-6
+    )
     assert np.array_equal(part.matrix, np.eye(4))
 
 
@@ -304,6 +317,9 @@ def test_a_skin_that_mirrors_turns_its_triangles_round() -> None:
     assert mesh.positions[1:] == pytest.approx(np.array([[0, 3, 0], [-1, 1, 0]]), abs=1e-6)
     assert mesh.normals[1] == pytest.approx([-1, 0, 0])
     assert mesh.triangles.tolist() == [[2, 1, 0]]
+    # The bitangent cross(x, y) = z does not turn, while the normal does: the sign has to.
+    assert mesh.tangents is not None
+    assert mesh.tangents[1].tolist() == [0, 1, 0, -1]
 
 
 @pytest.mark.parametrize(
