@@ -22,7 +22,7 @@ TIMES_THE_COST_OF_ONE: Final = 60
 """What a batch may cost, in the longest requests that are taken: an hour, where one is a minute."""
 
 BYTES_MAX: Final = 64 << 20
-"""Of all requests of a batch together, written out: a sweep of a large scene could be a gigabyte."""
+"""Of all requests of a batch, written out: a sweep of a large scene could be a gigabyte."""
 
 
 @dataclass(frozen=True, slots=True)

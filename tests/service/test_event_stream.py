@@ -140,7 +140,7 @@ def test_news_that_was_heard_before_the_restart_is_not_told_again(server):
 
 
 def test_a_service_that_stops_ends_its_streams(server):
-    running, waiting = server.submit(1005), server.submit(1005, size=[17, 1])
+    running, waiting = server.submit(1007), server.submit(1005)
     stream, other = server.read(running), server.read(waiting)
     next(stream)
     next(other)

@@ -1,5 +1,4 @@
 import os
-import time
 
 import pytest
 from sqlalchemy import func, select
@@ -91,15 +90,15 @@ def test_equal_items_share_their_work_at_the_pace_of_the_most_urgent(engine, tmp
     gate = tmp_path / "gate"
     engine.submit("texture", {"do": "wait", "gate": str(gate)}, "0" * 64, tenant="local")
     items = [
+        item(digest="2" * 64, do="nothing"),
         item(digest="1" * 64, do="nothing"),
         item(digest="1" * 64, do="nothing", priority="interactive"),
-        item(digest="2" * 64, do="nothing"),
     ]
     batch = engine.batches.submit("local", items)
     found = [engine.get("local", entry.job_id) for entry in engine.batches.entries(batch.id)]
-    assert found[0].work_id == found[1].work_id != found[2].work_id
-    assert found[0].position < found[2].position
-    assert [job.priority for job in found] == ["batch", "interactive", "batch"]
+    assert found[0].work_id != found[1].work_id == found[2].work_id
+    assert found[0].position > found[1].position
+    assert [job.priority for job in found] == ["batch", "batch", "interactive"]
     gate.touch()
 
 
@@ -110,15 +109,13 @@ def test_what_is_there_already_is_not_done_again(engine, finish, submit):
     assert batch.finished >= batch.created > done.finished
 
 
-def test_cancelling_stops_what_runs_and_what_waits(engine, wait_until, tmp_path):
+def test_cancelling_stops_what_runs_and_what_waits(engine, submit, finish, wait_until, tmp_path):
     note = tmp_path / "note"
     items = [item(do="sleep", seconds=60, note_pid=str(note)) for _ in range(20)]
     batch = engine.batches.submit("local", items)
     wait_until(note.exists)
-    began = time.monotonic()
     assert engine.batches.cancel("local", batch.id).counts == {"cancelled": 20}
-    wait_until(lambda: engine.ready().running == 0)
-    assert time.monotonic() - began < 5
+    assert finish(engine, submit(engine, do="nothing"), 20).state == "succeeded", "the slot is free"
     assert engine.batches.cancel("local", batch.id).counts == {"cancelled": 20}
     assert engine.batches.cancel("other", batch.id) is None
     assert engine.batches.cancel("local", "0" * 32) is None

@@ -48,6 +48,15 @@ def test_another_fingerprint_is_refused_and_records_nothing(requests, database):
     assert count(database, jobs) == 1
 
 
+def test_tenants_have_keys_of_their_own(requests):
+    mine = requests.submit(request(), key())
+    theirs = requests.submit(
+        Request("b", "texture", {}, "e", "interactive", 60.0), key(fingerprint="g")
+    )
+    assert requests.replayed("a", key()).id == mine.id
+    assert requests.replayed("b", key(fingerprint="g")).id == theirs.id
+
+
 def test_a_refused_request_leaves_its_key_free(requests, database):
     for digest in "xyz":
         requests.submit(request(digest))
