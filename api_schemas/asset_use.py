@@ -83,7 +83,7 @@ def _model(mesh: ModelMesh, facts: Mapping[str, AssetFacts], pointer: str) -> It
         if name in wanted:
             place = f"{pointer}/files/{escaped(name)}"
             yield from _kind(facts.get(asset), wanted[name], place)
-    if mesh.scene is not None and model.scenes is not None and mesh.scene >= model.scenes:
+    if mesh.scene is not None and mesh.scene >= model.scenes:
         message = f"the model has {model.scenes} scenes, counted from 0"
         yield Obstacle("model_part_unknown", f"{pointer}/scene", message)
     materials = [change.material for change in mesh.materials]

@@ -55,8 +55,8 @@ class ModelFacts(_Facts):
     materials: Names = Field(description="Its materials by index; an empty name where it has none.")
     nodes: Names = Field(description="Its nodes by index.")
     cameras: Names = Field(description="Its cameras by index.")
-    scenes: Count | None = Field(
-        default=None, description="How many scenes it has, where its format has scenes."
+    scenes: Count = Field(
+        default=0, description="How many scenes it has; without any, all of it is drawn."
     )
     lights: Count = Field(description="How many lights it brings.")
     texels: Count = Field(description="Pixels of the pictures inside it.")

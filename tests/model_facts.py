@@ -23,7 +23,7 @@ def model_facts(**known: Any) -> dict[str, Any]:
         "materials": [],
         "nodes": [],
         "cameras": [],
-        "scenes": None,
+        "scenes": 0,
         "lights": 0,
         "texels": 0,
         "files": [],

@@ -74,16 +74,21 @@ def document(**changes: Any) -> dict[str, Any]:
     }
 
 
-def glb(**changes: Any) -> bytes:
-    """The square as one binary file."""
+def packed(content: dict[str, Any], binary: bytes) -> bytes:
+    """A glTF document and its first buffer as one binary file."""
 
     def chunk(kind: bytes, content: bytes, filler: bytes) -> bytes:
         content += filler * (-len(content) % 4)
         return struct.pack("<I", len(content)) + kind + content
 
-    text = json.dumps(document(**changes)).encode()
-    chunks = chunk(b"JSON", text, b" ") + chunk(b"BIN\0", BINARY, b"\0")
+    text = json.dumps(content).encode()
+    chunks = chunk(b"JSON", text, b" ") + chunk(b"BIN\0", binary, b"\0")
     return b"glTF" + struct.pack("<II", 2, 12 + len(chunks)) + chunks
+
+
+def glb(**changes: Any) -> bytes:
+    """The square as one binary file."""
+    return packed(document(**changes), BINARY)
 
 
 def gltf(uri: str | None = None, **changes: Any) -> bytes:

@@ -68,6 +68,7 @@ def _model_facts(data: bytes, form: ModelFormat) -> dict[str, Any]:
         "materials": _names(found.materials),
         "nodes": _names(found.nodes),
         "cameras": _names(found.cameras),
+        "scenes": found.scenes,
         "lights": found.lights,
         "texels": sum(picture["width"] * picture["height"] for picture in pictures),
         "files": list(found.files),

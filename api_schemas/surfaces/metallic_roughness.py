@@ -13,12 +13,20 @@ if TYPE_CHECKING:
 
 
 class MetallicRoughnessSpec(SurfaceSpec):
-    """Microfacets of metal or of a dielectric over a matt base, with a clear coat."""
+    """The surface of glTF 2.0: microfacets of metal, or of a dielectric over a matt base; varnish.
 
-    source: ClassVar[str] = "Khronos, glTF 2.0, appendix B, 2021; Walter et al., 2007; Heitz, 2014"
+    Ambient light counts as a uniform sky. Colours of the mesh's vertices multiply base_color.
+    """
+
+    source: ClassVar[str] = (
+        "Khronos, glTF 2.0, appendix B, 2021, with KHR_materials_ior, _specular and _clearcoat; "
+        "Walter et al., 2007; Heitz, 2014; Karis, 2013 (sky); Turquin, 2019 (energy)"
+    )
     equation: ClassVar[str] = (
-        "f = mix((1 - F) c / pi, 0, metallic) + D V F, alpha = roughness^2, "
-        "F = F0 + (1 - F0)(1 - v.h)^5, F0 = mix(((ior - 1) / (ior + 1))^2 specular, c, metallic)"
+        "f = mix((1 - F) c / pi + F D V, Fm D V, metallic), alpha = roughness^2, "
+        "F = F0 + (specular - F0) (1 - v.h)^5, "
+        "F0 = specular specular_color ((ior - 1) / (ior + 1))^2, Fm = c + (1 - c) (1 - v.h)^5, "
+        "D of GGX, V = G / (4 n.l n.v) of height-correlated Smith"
     )
 
     technique: Literal["metallic_roughness"]
@@ -30,7 +38,7 @@ class MetallicRoughnessSpec(SurfaceSpec):
         default=1.0, description="Whether it is metal (1) or not (0)."
     )
     roughness: MappableNonNegative = Field(
-        default=1.0, description="From mirror-like (0) to matt (1)."
+        default=1.0, description="How wide highlights are, from mirror-like (0) to dull (1)."
     )
     occlusion: MappableNonNegative = Field(
         default=1.0, description="How much of the ambient light arrives: 0 in deep creases."

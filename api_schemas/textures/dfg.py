@@ -1,4 +1,4 @@
-"""How much a rough surface reflects of light that comes from everywhere: the table of split sums."""
+"""How much a rough surface reflects of light from everywhere: the table of split sums."""
 
 from typing import ClassVar, Literal
 
@@ -9,11 +9,11 @@ from api_schemas.families import Meaning, TextureSpec
 
 
 class DfgSpec(TextureSpec):
-    """Directional reflectance of microfacets: u is the cosine of the viewing angle, v the roughness.
+    """Reflectance of microfacets, over the cosine of the viewing angle (u) and the roughness (v).
 
-    Red is A, green is B: under a uniform sky of radiance 1 a surface of reflectance F0 seen head-on
-    shows F0 A + B. Blue is A + B, what a perfect mirror shows after one bounce; the rest of it has
-    bounced more than once between the microfacets.
+    Red is A, green is B: under a uniform sky of radiance 1, what reflects F0 of light that falls on
+    it head-on shows F0 A + B. Blue is A + B, what is left of all light after one bounce; the rest
+    bounces on between the microfacets.
     """
 
     source: ClassVar[str] = "Karis, 2013; Walter et al., 2007 (GGX); Heitz, 2014 (shadowing)"

@@ -139,8 +139,9 @@ async def create_asset(
         async with upload(request, settings.upload_limit_bytes) as sent:
             sha256 = await stored(sent.content, path)
         known = await run_in_threadpool(asset_facts, engine, tenant, sha256)
-        facts = known
-        if known is None or may_be_more(known, sent.media_type):
+        if known is not None and not may_be_more(known, sent.media_type):
+            facts = known
+        else:
             try:
                 facts = await to_thread.run_sync(
                     measured_and_kept,
@@ -155,6 +156,7 @@ async def create_asset(
             except ProblemError:
                 if known is None:
                     raise
+                facts = known
     return Response(
         ASSET_FACTS.dump_json(facts),
         status_code=201 if known is None else 200,

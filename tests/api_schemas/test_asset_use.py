@@ -163,7 +163,7 @@ def test_a_part_that_is_not_there_is_told_with_its_place(part):
 
 @pytest.mark.parametrize(
     ("scenes", "wanted", "there"),
-    [(2, 1, True), (2, 2, False), (2, None, True), (None, 7, True), (0, 0, False)],
+    [(2, 1, True), (2, 2, False), (2, None, True), (0, None, True), (0, 0, False)],
 )
 def test_a_scene_of_a_file_is_counted_from_0(scenes, wanted, there):
     facts = known(model=model_facts(scenes=scenes))

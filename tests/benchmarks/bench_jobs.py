@@ -31,6 +31,9 @@ def measure():
             _row("no-op job, submitted to finished, p50", *_latency(0.50)),
             _row("no-op job, submitted to finished, p99", *_latency(0.99)),
             _row("5 ms jobs, two slots", _throughput(), "jobs/s"),
+            _row("the same, children replaced after 20 jobs", _throughput(recycle=20), "jobs/s"),
+            *_behind_batch(),
+            *_behind_another_tenant(),
             _row("cancel a running stuck native call, until its process is gone", *_cancel()),
             _row("stuck native call, beyond its limit of 1 s", *_overshoot()),
             _row("kill -9 of the child in mid-job, until the job is finished", *_child_death()),
@@ -54,13 +57,43 @@ def _latency(quantile):
     return times[int(quantile * len(times))] * 1e3, "ms"
 
 
-def _throughput():
-    with _engine(slots=2) as engine:
+def _throughput(recycle=1000):
+    with _engine(slots=2, recycle_after=recycle) as engine:
         started = time.perf_counter()
         jobs = [_submit(engine, {"do": "burn", "seconds": 0.005}) for _ in range(200)]
         for job in jobs:
             _finish(engine, job)
         return len(jobs) / (time.perf_counter() - started)
+
+
+def _behind_batch():
+    """No-ops for somebody who waits, while work of 50 ms fills every slot that it may."""
+    rows = []
+    for slots in (2, 3):
+        with _engine(slots=slots) as engine:
+            for _ in range(200):
+                _submit(engine, {"do": "sleep", "seconds": 0.05}, priority="batch")
+            times = sorted(_timed(engine, {"do": "nothing"}) for _ in range(20))
+        what = f"interactive no-op behind 200 batch jobs of 50 ms, {slots} slots, p50"
+        rows.append(_row(what, statistics.median(times) * 1e3, "ms"))
+    return rows
+
+
+def _behind_another_tenant():
+    with _engine(slots=2) as engine:
+        body = {"do": "sleep", "seconds": 0.02}
+        first = [_submit(engine, body, tenant="a") for _ in range(100)]
+        started = time.perf_counter()
+        second = [_submit(engine, body, tenant="b") for _ in range(4)]
+        ends = []
+        for jobs in (second, first):
+            for job in jobs:
+                _finish(engine, job)
+            ends.append((time.perf_counter() - started) * 1e3)
+    return [
+        _row("tenant B's 4 jobs of 20 ms behind A's 100, until all of B's", ends[0], "ms"),
+        _row("the same, until all of A's", ends[1], "ms"),
+    ]
 
 
 def _cancel():
@@ -117,10 +150,14 @@ def _service_death():
 
 
 @contextmanager
-def _engine(slots=1):
+def _engine(slots=1, recycle_after=1000):
     with tempfile.TemporaryDirectory() as folder:
         engine = EmbeddedEngine(
-            Path(folder), slots=slots, memory_limit_bytes=1 << 30, executor="trial_executor"
+            Path(folder),
+            slots=slots,
+            memory_limit_bytes=1 << 30,
+            recycle_after=recycle_after,
+            executor="trial_executor",
         )
         engine.start()
         try:
@@ -145,9 +182,15 @@ def _service(data):
         service.wait()
 
 
-def _submit(engine, body, limit=60.0):
-    digest = os.urandom(32).hex()
-    return engine.submit("texture", body, digest, tenant="local", time_limit_seconds=limit)
+def _submit(engine, body, limit=60.0, tenant="local", priority="interactive"):
+    return engine.submit(
+        "texture",
+        body,
+        os.urandom(32).hex(),
+        tenant=tenant,
+        priority=priority,
+        time_limit_seconds=limit,
+    )
 
 
 def _finish(engine, job):

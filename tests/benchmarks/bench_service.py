@@ -66,11 +66,13 @@ def overhead(client: Any) -> list[dict[str, Any]]:
         timed(lambda: client.post("/v1/textures", json=body).raise_for_status())
         for _ in range(ROUNDS)
     ]
+    scraped = [timed(lambda: client.get("/metrics").raise_for_status()) for _ in range(ROUNDS)]
     return [
         row("texture 64 x 64, request to picture, p50", statistics.median(whole), "ms"),
         row("of it added by the service, p50", statistics.median(added), "ms", "reach: 10"),
         row("GET of a finished result, p50", statistics.median(fetched), "ms", "reach: 3"),
         row("POST of work already done, p50", statistics.median(known), "ms"),
+        row("GET /metrics, p50", statistics.median(scraped), "ms"),
     ]
 
 

@@ -1,6 +1,8 @@
 """Models go in over HTTP and come out as pictures, however they are packed."""
 
+import base64
 import io
+import json
 
 import numpy as np
 import pytest
@@ -62,7 +64,7 @@ def shows_a_red_square(picture):
 def test_a_red_square_is_drawn_as_its_file_says(upload, pixels, packed):
     facts = upload(packed, "square")
 
-    assert (facts["kind"], facts["triangles"], facts["vertices"]) == ("model", 2, 4)
+    assert (facts["kind"], facts["triangles"]) == ("model", 2)
     assert (facts["bounds_min"], facts["bounds_max"]) == ([-1, -1, 0], [1, 1, 0])
     assert (facts["materials"], facts["nodes"], facts["files"]) == (["red"], ["square"], [])
     assert shows_a_red_square(pixels({"asset": facts["sha256"]}))
@@ -137,15 +139,68 @@ def test_a_part_that_is_not_there_is_a_problem_with_its_place(client, upload):
     assert answer.json()["pointer"] == "/scene/nodes/0/mesh/nodes/0/node"
 
 
+def test_one_of_a_files_scenes_is_drawn_and_others_are_not_there(client, upload, pixels):
+    """The second scene has a smaller square, of a quarter of the area."""
+    nodes = [{"mesh": 0}, {"mesh": 0, "scale": [0.5, 0.5, 0.5]}]
+    content = small_models.glb(nodes=nodes, scenes=[{"nodes": [0]}, {"nodes": [1]}])
+    facts = upload(content, "square.glb")
+    drawn = [
+        int((pixels({"asset": facts["sha256"], "scene": scene})[..., 3] > 0).sum())
+        for scene in (None, 0, 1)
+    ]
+    mesh = {"type": "model", "asset": facts["sha256"], "scene": 2}
+    refused = client.post("/v1/renders", json={"scene": {"nodes": [{"mesh": mesh}]}})
+
+    assert facts["scenes"] == 2
+    assert drawn == [1024, 1024, 256]
+    assert (refused.status_code, refused.json()["code"]) == (409, "model_part_unknown")
+    assert refused.json()["pointer"] == "/scene/nodes/0/mesh/scene"
+
+
+def repacked(embedded):
+    """Pack a glTF file with everything inside anew: as GLB, and with everything beside it."""
+    document = json.loads(embedded)
+    (buffer,), (image,) = document["buffers"], document["images"]
+    numbers, picture = (base64.b64decode(it.pop("uri").partition(",")[2]) for it in (buffer, image))
+    beside = json.loads(json.dumps(document))
+    beside["buffers"][0]["uri"], beside["images"][0]["uri"] = "a/box.bin", "the%20logo.png"
+    start = len(numbers) + -len(numbers) % 4
+    view = {"buffer": 0, "byteOffset": start, "byteLength": len(picture)}
+    image |= {"bufferView": len(document["bufferViews"]), "mimeType": "image/png"}
+    document["bufferViews"].append(view)
+    buffer["byteLength"] = start + len(picture)
+    within = small_models.packed(document, numbers.ljust(start, b"\0") + picture)
+    files = {"a/box.bin": (numbers, ".bin"), "the logo.png": (picture, ".png")}
+    return within, json.dumps(beside).encode(), files
+
+
 @pytest.mark.corpus
 def test_one_box_in_three_packagings_is_one_picture(corpus, upload, pixels):
+    """The corpus has three of its own, but with other pictures and other samplers."""
+    embedded = (corpus / "1_models/khronos/BoxTextured-embedded/BoxTextured.gltf").read_bytes()
+    within, beside, contents = repacked(embedded)
+    files = {name: upload(*content)["sha256"] for name, content in contents.items()}
+    pictures = []
+    for packed in (embedded, within, beside):
+        facts = upload(packed, "box")
+        given = files if facts["files"] else {}
+        assert set(facts["files"]) == set(given)
+        pictures.append(pixels({"asset": facts["sha256"], "files": given}, camera=None))
+
+    assert len({tuple(colour) for colour in pictures[0].reshape(-1, 4)}) > 50
+    assert np.array_equal(pictures[0], pictures[1])
+    assert np.array_equal(pictures[0], pictures[2])
+
+
+@pytest.mark.corpus
+def test_the_boxes_of_the_corpus_have_one_outline(corpus, upload, pixels):
     folder = corpus / "1_models/khronos"
     beside = folder / "BoxTextured-separate"
     files = {
         path.name: upload(path.read_bytes(), path.name)["sha256"]
         for path in (beside / "BoxTextured0.bin", beside / "CesiumLogoFlat.png")
     }
-    meshes = []
+    outlines = []
     for path in (
         folder / "BoxTextured.glb",
         folder / "BoxTextured-embedded/BoxTextured.gltf",
@@ -155,9 +210,8 @@ def test_one_box_in_three_packagings_is_one_picture(corpus, upload, pixels):
         assert facts["triangles"] == 12
         assert facts["bounds_min"] == [-0.5] * 3
         assert facts["bounds_max"] == [0.5] * 3
-        assert set(facts["files"]) in (set(), set(files))
-        meshes.append({"asset": facts["sha256"]} | ({"files": files} if facts["files"] else {}))
-    first, *others = (pixels(mesh, camera=None) for mesh in meshes)
+        mesh = {"asset": facts["sha256"]} | ({"files": files} if facts["files"] else {})
+        outlines.append(pixels(mesh, camera=None)[..., 3])
 
-    assert len({tuple(colour) for colour in first.reshape(-1, 4)}) > 50
-    assert all(np.array_equal(first, other) for other in others)
+    assert 0.2 < (outlines[0] > 0).mean() < 0.9
+    assert all(np.array_equal(outlines[0], other) for other in outlines[1:])

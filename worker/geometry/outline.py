@@ -28,6 +28,7 @@ class Outline:
         materials: Names.
         nodes: Names.
         cameras: Names.
+        scenes: How many, where the format has such.
         lights: How many.
         pictures: Encoded picture files inside the file, each once.
         files: Names of the files that it needs beside it.
@@ -47,6 +48,7 @@ class Outline:
     materials: tuple[str, ...] = ()
     nodes: tuple[str, ...] = ()
     cameras: tuple[str, ...] = ()
+    scenes: int = 0
     lights: int = 0
     pictures: tuple[bytes, ...] = ()
     files: tuple[str, ...] = ()

@@ -84,8 +84,9 @@ def read_body(data: bytes, header: Header, wanted: frozenset[str]) -> dict[str, 
         else:
             table, at = _read_columns(body, at, element)
         row += element.rows
-        tables.setdefault(element.name, table)
-    return {name: table for name, table in tables.items() if name in wanted}
+        if element.name in wanted:
+            tables.setdefault(element.name, table)
+    return tables
 
 
 def _body(data: bytes, header: Header) -> _Body:

@@ -15,7 +15,7 @@ from worker.geometry.mesh import Mesh
 from worker.geometry.model import Model, Part
 from worker.geometry.model_limits import TRIANGLES_MAX, check_positions, check_size
 from worker.geometry.outline import Outline, outline_of
-from worker.geometry.stl_scan import count_vertices, read_vertices
+from worker.geometry.stl_scan import read_vertices
 from worker.geometry.vertices import flat_normals
 from worker.images.colour import linear_from_srgb
 
@@ -86,8 +86,8 @@ def outline(data: bytes) -> Outline:
 
 def _corners_in_text(data: bytes) -> NDArray[np.float64]:
     text = np.frombuffer(data, np.uint8)
-    count = count_vertices(text)
-    if count < 0 or count % 3:
+    count = read_vertices(text, np.empty((0, 3)))
+    if count < 0:
         raise UnusableAssetError("its facets have not three vertices each, or it is cut short")
     check_size(count // 3, TRIANGLES_MAX, "triangles")
     corners = np.empty((count, 3))

@@ -188,19 +188,23 @@ def _sums(mesh: Mesh, corners: Indices, charts: _Charts, groups: Indices) -> Flo
     before = _unit(_across(np.roll(places, 1, axis=1) - places, normals))
     angles = np.arccos(np.clip((after * before).sum(axis=2), -1, 1))
     weighted = (tangents * np.where(charts.usable[:, None], angles, 0.0)[..., None]).reshape(-1, 3)
-    return np.stack(
-        [np.bincount(groups, column, minlength=groups.max() + 1) for column in weighted.T], axis=1
+    count = int(groups.max()) + 1
+    sums: Floats = np.stack(
+        [np.bincount(groups, column, minlength=count) for column in weighted.T], axis=1
     )
+    return sums
 
 
 def _across(vectors: Floats, normals: Floats) -> Floats:
-    return vectors - (vectors * normals).sum(axis=-1, keepdims=True) * normals
+    across: Floats = vectors - (vectors * normals).sum(axis=-1, keepdims=True) * normals
+    return across
 
 
 def _unit(vectors: Floats) -> Floats:
     """Divide by the length; what has none stays."""
     length = np.linalg.norm(vectors, axis=-1, keepdims=True)
-    return vectors / np.where(length > _NO_AREA, length, 1.0)
+    unit: Floats = vectors / np.where(length > _NO_AREA, length, 1.0)
+    return unit
 
 
 def _or_perpendicular(vectors: Floats, normals: Floats) -> Floats:

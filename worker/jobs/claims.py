@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Final
 
-from sqlalchemy import Connection, func, select, update
+from sqlalchemy import Connection, bindparam, func, select, update
 
 from worker.errors import Failure
 from worker.jobs.database import Database
@@ -68,12 +68,10 @@ class Claims:
             sequence = self._turns.next(connection)
             if sequence is None:
                 return None
-            is_this = work.c.sequence == sequence
-            row = connection.execute(select(work).where(is_this)).one()
+            row = connection.execute(_ROW, {"this": sequence}).one()
             attempt, now = row.attempt + 1, time.time()
-            connection.execute(
-                update(work).where(is_this).values(state="running", attempt=attempt, started=now)
-            )
+            taken = {"this": sequence, "state": "running", "attempt": attempt, "started": now}
+            connection.execute(_TAKE, taken)
         return Claim(
             work_id=row.id,
             attempt=attempt,
@@ -148,6 +146,14 @@ class Claims:
             return {row[0]: row[1] for row in rows}
 
 
+# Made once: to put a statement together costs as much as to execute it.
+_ROW: Final = select(work).where(work.c.sequence == bindparam("this"))
+_TAKE: Final = update(work).where(work.c.sequence == bindparam("this"))
+_CURRENT: Final = update(work).where(
+    work.c.id == bindparam("this"),
+    work.c.attempt == bindparam("this_attempt"),
+    work.c.state == "running",
+)
 _WAITING: Final[dict[str, Any]] = {
     "state": "queued",
     "progress": 0.0,
@@ -162,13 +168,5 @@ def _ended(state: str) -> dict[str, Any]:
 
 def _change(connection: Connection, claim: Claim, values: dict[str, Any]) -> bool:
     """Change claimed work if it is still this attempt that runs."""
-    changed = connection.execute(
-        update(work)
-        .where(
-            work.c.id == claim.work_id,
-            work.c.attempt == claim.attempt,
-            work.c.state == "running",
-        )
-        .values(values)
-    )
-    return changed.rowcount == 1
+    this = {"this": claim.work_id, "this_attempt": claim.attempt}
+    return connection.execute(_CURRENT, this | values).rowcount == 1

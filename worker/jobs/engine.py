@@ -246,7 +246,8 @@ class EmbeddedEngine:
         with self._bell.listening(job.work_id) as rung:
             while job.state not in FINAL_STATES:
                 rung.clear()
-                job = await asyncio.to_thread(self.get, job.tenant, job.id) or job
+                known = await asyncio.to_thread(self.get, job.tenant, job.id)
+                job = known or job
                 if job.state in FINAL_STATES:
                     break
                 try:

@@ -1,17 +1,28 @@
 """From what callers ask for to work: that which is there already, or rows of new work."""
 
 import uuid
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Final
 
-from sqlalchemy import Connection, Row, Select, select
+from sqlalchemy import Connection, Row, bindparam, insert, select
 
 from worker.jobs.job import PRIORITIES, Priority
 from worker.jobs.schema import work
 
 IsReusable = Callable[[str, str | None], bool]
 """Whether the result of work, given its id and fingerprint, still serves."""
+
+NEW_WORK: Final = insert(work)
+_JOINABLE: Final = (
+    select(work.c.id, work.c.digest, work.c.state, work.c.priority, work.c.fingerprint)
+    .where(
+        work.c.tenant == bindparam("tenant"),
+        work.c.digest.in_(bindparam("digests", expanding=True)),
+        work.c.state.in_(("queued", "running", "succeeded")),
+    )
+    .order_by(work.c.sequence)
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,16 +42,9 @@ def joinable(
     connection: Connection, tenant: str, digests: Collection[str], is_reusable: IsReusable
 ) -> dict[str, Row[Any]]:
     """By digest, the tenant's work that is under way or has a result that still serves."""
-    query: Select[Any] = (
-        select(work.c.id, work.c.digest, work.c.state, work.c.priority, work.c.fingerprint)
-        .where(
-            work.c.tenant == tenant,
-            work.c.digest.in_(digests),
-            work.c.state.in_(("queued", "running", "succeeded")),
-        )
-        .order_by(work.c.sequence)
-    )
-    newest = {row.digest: row for row in connection.execute(query)}
+    parameters = {"tenant": tenant, "digests": list(digests)}
+    rows: Sequence[Any] = connection.execute(_JOINABLE, parameters).all()
+    newest = {row.digest: row for row in rows}
     return {
         digest: row
         for digest, row in newest.items()

@@ -18,7 +18,7 @@ RESTARTS: Final = (
 )
 SECONDS: Final = (0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1, 2.5, 5, 10, 30, 60, 300, 600)
 
-disable_created_metrics()  # when a counter began is known: when the service did
+disable_created_metrics()  # type: ignore[no-untyped-call]  # when a counter began is known: when the service did
 
 
 class Meters:

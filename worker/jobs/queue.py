@@ -100,8 +100,10 @@ class JobQueue(Protocol):
     def result_path(self, job: Job) -> Path | None:
         """The result of a succeeded job; None when it was evicted."""
 
-    def measure(self, path: Path, time_limit_seconds: float) -> dict[str, Any]:
-        """The facts of a file.
+    def measure(
+        self, path: Path, time_limit_seconds: float, media_type: str = ""
+    ) -> dict[str, Any]:
+        """The facts of a file, which its uploader calls `media_type`.
 
         Raises:
             MeasuringError: the file is unusable; `failure` says why.

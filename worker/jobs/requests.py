@@ -5,11 +5,11 @@ import uuid
 from collections.abc import Collection, Sequence
 from typing import Any, Final
 
-from sqlalchemy import Connection, Row, Select, and_, func, insert, select, update
+from sqlalchemy import Connection, Row, Select, and_, bindparam, func, insert, select, update
 
 from worker.jobs.database import Database
 from worker.jobs.idempotency import Key, answered, remember
-from worker.jobs.intake import IsReusable, Request, joinable, new_work
+from worker.jobs.intake import NEW_WORK, IsReusable, Request, joinable, new_work
 from worker.jobs.job import PRIORITIES, Job, State
 from worker.jobs.meters import Found, Meters
 from worker.jobs.room import Room
@@ -62,20 +62,21 @@ class Requests:
             if work_id is None:
                 self._room.require(connection, request.tenant, request.priority)
                 [new] = new_work([request], now, in_batch=False)
-                connection.execute(insert(work), new)
+                connection.execute(NEW_WORK, new)
                 work_id = new["id"]
             connection.execute(
-                insert(jobs).values(
-                    id=job_id,
-                    tenant=request.tenant,
-                    work_id=work_id,
-                    priority=PRIORITIES.index(request.priority),
-                    created=now,
-                )
+                _NEW_JOB,
+                {
+                    "id": job_id,
+                    "tenant": request.tenant,
+                    "work_id": work_id,
+                    "priority": PRIORITIES.index(request.priority),
+                    "created": now,
+                },
             )
             if key is not None:
                 remember(connection, request.tenant, key, job_id)
-            [job] = _found(connection, _JOBS.where(jobs.c.id == job_id))
+            [job] = _found(connection, _BY_ID, tenant=request.tenant, job_id=job_id)
         found: Found = "new" if is_new else "finished" if job.state == "succeeded" else "shared"
         self._meters.submitted(request.priority, found)
         return job
@@ -100,9 +101,8 @@ class Requests:
 
     def get(self, tenant: str, job_id: str) -> Job | None:
         """One job of the tenant."""
-        query = _JOBS.where(jobs.c.tenant == tenant, jobs.c.id == job_id)
         with self._database.reading() as connection:
-            found = _found(connection, query)
+            found = _found(connection, _BY_ID, tenant=tenant, job_id=job_id)
         return found[0] if found else None
 
     def list(
@@ -162,7 +162,7 @@ class Requests:
 
 def _replayed(connection: Connection, tenant: str, key: Key) -> Job | None:
     job_id = answered(connection, tenant, key)
-    found = _found(connection, _JOBS.where(jobs.c.tenant == tenant, jobs.c.id == job_id))
+    found = _found(connection, _BY_ID, tenant=tenant, job_id=job_id)
     return found[0] if found else None
 
 
@@ -201,18 +201,25 @@ def _line() -> Select[Any]:
 _JOBS: Final = _jobs_with_work()
 _LINE: Final = _line().subquery()
 
+# Made once: to put a statement together costs as much as to execute it.
+_NEW_JOB: Final = insert(jobs)
+_BY_ID: Final = _JOBS.where(jobs.c.tenant == bindparam("tenant"), jobs.c.id == bindparam("job_id"))
+_PLACES: Final = select(_LINE.c.id, _LINE.c.place).where(
+    _LINE.c.id.in_(bindparam("ids", expanding=True))
+)
 
-def _found(connection: Connection, query: Select[Any]) -> list[Job]:
-    return _jobs_of(connection, connection.execute(query).all())
+
+def _found(connection: Connection, query: Select[Any], **parameters: str | None) -> list[Job]:
+    return _jobs_of(connection, connection.execute(query, parameters).all())
 
 
 def _jobs_of(connection: Connection, rows: Sequence[Row[Any]]) -> list[Job]:
     """The jobs of some rows, with their places in the queue."""
-    waiting = {row.work_id for row in rows if row.state == "queued"}
+    waiting = list({row.work_id for row in rows if row.state == "queued"})
     places: dict[str, int] = {}
     if waiting:
-        query = select(_LINE.c.id, _LINE.c.place).where(_LINE.c.id.in_(waiting))
-        places = {row.id: row.place for row in connection.execute(query)}
+        found = connection.execute(_PLACES, {"ids": waiting})
+        places = {row.id: row.place for row in found}
     return [_job(row, places.get(row.work_id)) for row in rows]
 
 

@@ -17,6 +17,12 @@ from worker.jobs.turns import BATCH, slots_for
 IN_BATCHES: Final = 4000
 """Work of batches that may wait: it does not count as waiting for those who ask for one thing."""
 
+_WAITING: Final = (
+    select(work.c.tenant, func.count())
+    .where(work.c.state == "queued", work.c.in_batch.is_(False))
+    .group_by(work.c.tenant)
+)
+
 
 class Room:
     """The bounds of the queue.
@@ -43,12 +49,7 @@ class Room:
             TenantFullError: too much of this tenant is waiting.
             QueueFullError: too much is waiting altogether.
         """
-        query = (
-            select(work.c.tenant, func.count())
-            .where(work.c.state == "queued", work.c.in_batch.is_(False))
-            .group_by(work.c.tenant)
-        )
-        waiting = {row[0]: row[1] for row in connection.execute(query)}
+        waiting = {row[0]: row[1] for row in connection.execute(_WAITING)}
         slots = slots_for(PRIORITIES.index(priority), self._slots)
         # A place becomes free when work begins, which is when other work ends.
         seconds = self._run_times.typical() / slots

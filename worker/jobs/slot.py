@@ -96,9 +96,14 @@ class Slot:
             reservable = RESERVABLE * self._memory_limit_bytes
             arguments = (theirs, self._module, self._environment, reservable)
             process = CONTEXT.Process(target=serve, args=arguments, daemon=True)
-            process.start()
+            try:
+                process.start()
+            except (OSError, EOFError) as error:  # the forkserver was killed, or cannot fork
+                ours.close()
+                raise SlotError(f"no process could be forked: {error}") from error
+            finally:
+                theirs.close()
             self._process, self._connection = process, ours
-        theirs.close()
         outcome = self._listen("warm", self._warm_limit_seconds)
         if outcome.facts is None:
             self.kill()

@@ -69,7 +69,11 @@ def _head(layout: ShadingLayout, chunks: Sequence[str]) -> list[str]:
     lines = [VERSION, *(f'#include "{name}"' for name in dict.fromkeys(chunks))]
     if lookups:
         lines += [
-            *(f"uniform sampler2D {name};" for name in layout.samplers if name not in layout.tables),
+            *(
+                f"uniform sampler2D {name};"
+                for name in layout.samplers
+                if name not in layout.tables
+            ),
             f"uniform mat3 lookup_transform[{len(lookups)}];",
             f"uniform vec4 lookup_period[{len(lookups)}];",
             f"uniform vec2 lookup_size[{len(lookups)}];",

@@ -22,7 +22,7 @@ from worker.rendering.fragment import background_sources, surface_sources
 from worker.rendering.gl_context import GL, GLContext, check, floats
 from worker.rendering.layer_uniforms import LayerUniforms
 from worker.rendering.programs import Program, ProgramCache
-from worker.rendering.pyrender_scene import FlatScene, PlacedNode, SurfacePrimitive, View
+from worker.rendering.pyrender_scene import FlatScene, PlacedNode, SurfacePrimitive
 from worker.rendering.samplers import SamplerCache
 from worker.rendering.shading import Picture, Shading
 from worker.rendering.targets import Target
@@ -32,9 +32,9 @@ _SET_BY_PYRENDER = frozenset({"V", "P", "cam_pos"})
 
 @dataclass(slots=True)
 class _TraversedProgram(Program):
-    """A program as pyrender's traversal handles it; `frame` is the last one it was lit for."""
+    """A program as pyrender's traversal handles it; `frame` is the last one that it was lit for."""
 
-    frame: object = None
+    frame: int = 0
 
     def _bind(self) -> None:
         self.bind()
@@ -53,6 +53,7 @@ class _Frame:
     """What one tile is drawn with.
 
     Attributes:
+        number: Which frame of this renderer it is, from 1.
         scene: What is drawn.
         lights: Uniforms.
         target: Where the samples go.
@@ -65,6 +66,7 @@ class _Frame:
         bound: What each texture unit holds.
     """
 
+    number: int
     scene: FlatScene
     lights: dict[str, Any]
     target: Target
@@ -92,6 +94,7 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         self._samplers = SamplerCache()
         self._layers = LayerUniforms()
         self._frame: _Frame | None = None
+        self._frames = 0
         self._stream = 0  # a buffer of elements in another order
         self._no_vertices = 0
         self.jit_seconds = 0.0
@@ -99,7 +102,6 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
     def draw(
         self,
         scene: FlatScene,
-        view: View,
         lights: dict[str, Any],
         target: Target,
         tile_from_picture: Matrix,
@@ -110,7 +112,6 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
 
         Args:
             scene: What to draw.
-            view: The eye that it was made for.
             lights: From light_uniforms.
             target: Where the samples go.
             tile_from_picture: Stretches the tile's part of clip space over all of it.
@@ -121,11 +122,14 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
             RenderError: OpenGL complains, or this is not the context's thread.
         """
         self._context.check_thread()
+        view = scene.view
         camera_from_world = rigid_inverse(view.world_from_camera)
         clip_from_world = tile_from_picture @ view.clip_from_camera @ camera_from_world
         backward = view.world_from_camera[:3, 2]
         picture = np.diag(tile_from_picture)[:2] * size
+        self._frames += 1
         self._frame = _Frame(
+            number=self._frames,
             scene=scene,
             lights=lights,
             target=target,
@@ -141,6 +145,7 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         GL.glLineWidth(supersampling)
         GL.glPointSize(supersampling)
         self.render(scene, RenderFlags.OFFSCREEN)
+        self._frame = None  # a scene is held no longer than it is drawn
         check("drawing a tile")
 
     # Hooks of pyrender.Renderer, in the order in which its traversal calls them.
@@ -166,11 +171,10 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         Our programs have matrices of their own.
         """
         assert self._frame is not None
-        if scene.background is not None:
-            if scene.background.shading is None:
-                GL.glClearBufferfv(GL.GL_COLOR, 0, floats([*scene.background.color, 1.0]))
-            else:
-                self._draw_background(scene.background.shading)
+        if isinstance(scene.background, Shading):
+            self._draw_background(scene.background)
+        elif scene.background is not None:
+            GL.glClearBufferfv(GL.GL_COLOR, 0, floats([*scene.background, 1.0]))
         return None, None
 
     def _sorted_mesh_nodes(self, scene: FlatScene) -> list[PlacedNode]:
@@ -187,9 +191,9 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         self, scene: FlatScene, program: _TraversedProgram, node: PlacedNode, flags: int
     ) -> None:
         assert self._frame is not None
-        if program.frame is self._frame:
+        if program.frame == self._frame.number:
             return
-        program.frame = self._frame
+        program.frame = self._frame.number
         program.set("eye", self._frame.eye)
         if "light_count" in program.uniforms:
             for name, value in self._frame.lights.items():
@@ -208,7 +212,7 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         if self._frame.target.layered:
             program.set("object_id", number + 1)
             program.set("material_id", primitive.material.number)
-            self._layers.set(program, scene.world_from_camera, primitive.mesh)
+            self._layers.set(program, scene.view.world_from_camera, primitive.mesh)
         if primitive.material.shading.layout.alpha_mode == "blend" and not self._frame.blending:
             self._begin_blending()
         start = time.perf_counter()

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 import pyrender
@@ -13,6 +13,10 @@ from worker.rendering.draw_order import back_to_front, nearness
 from worker.rendering.gl_context import GL, floats
 from worker.rendering.shading import Shading
 from worker.rendering.vertex_arrays import VertexArray
+
+_FINE = 1 << 17
+"""Triangles of a mesh beyond which going through it twice costs more than shading what is hidden:
+0.7 s and 0.4 s for a million of them at 512 x 512, on a busy machine."""
 
 _RANKS = {"opaque": 0, "mask": 1, "blend": 2}
 
@@ -42,12 +46,8 @@ class Drawable:
     material: int
 
 
-@dataclass(frozen=True, slots=True)
-class Background:
-    """What is seen where nothing is: a linear colour, or a shading over the whole picture."""
-
-    color: tuple[float, ...] | None
-    shading: Shading | None
+Background: TypeAlias = Shading | tuple[float, ...]
+"""What is seen where nothing is: a mapped colour over the whole picture, or a linear colour."""
 
 
 class SurfaceMaterial(pyrender.Material):  # type: ignore[misc]
@@ -93,7 +93,8 @@ class SurfacePrimitive(pyrender.Primitive):  # type: ignore[misc]
         if not blended:
             # Outer sides first: the depth test then spares the shading of inner ones behind them.
             if both and self.mesh.has_sides:
-                self.hidden = (GL.GL_BACK, GL.GL_FRONT)
+                fine = len(self.mesh.elements) > _FINE
+                self.hidden = (None,) if fine else (GL.GL_BACK, GL.GL_FRONT)
         elif self.mesh.convex:
             if both:
                 self.hidden = (GL.GL_FRONT, GL.GL_BACK)
@@ -131,7 +132,7 @@ class FlatScene(pyrender.Scene):  # type: ignore[misc]
 
     Attributes:
         background: What is behind everything.
-        world_from_camera: The eye's frame.
+        view: The eye.
         in_order: Its nodes as they are drawn.
         world_from_object: (n, 4, 4), by the number of the drawable.
         eye_from_object: float32 (n, 4, 4), axes of the world and origin at the eye.
@@ -144,7 +145,7 @@ class FlatScene(pyrender.Scene):  # type: ignore[misc]
         """Put drawables and the eye into a scene of pyrender's."""
         super().__init__(bg_color=np.zeros(4), ambient_light=np.zeros(3))
         self.background = background
-        self.world_from_camera = view.world_from_camera
+        self.view = view
         camera = MatrixCamera(view.clip_from_camera)
         self.add_node(PlacedNode(view.world_from_camera, camera=camera))
         matrices = np.array([drawable.world_from_object for drawable in drawables])
@@ -163,7 +164,8 @@ class FlatScene(pyrender.Scene):  # type: ignore[misc]
 
     def get_pose(self, node: PlacedNode) -> Matrix:
         """Return where a node stands, without a search for its parents."""
-        return node.matrix
+        matrix: Matrix = node.matrix
+        return matrix
 
 
 _NO_VERTICES = np.empty((0, 3), dtype=np.float32)

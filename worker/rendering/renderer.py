@@ -24,7 +24,7 @@ from worker.rendering.lighting import light_uniforms
 from worker.rendering.packing import PICTURE, PLACES
 from worker.rendering.pyrender_adapter import FloatRenderer
 from worker.rendering.pyrender_scene import FlatScene
-from worker.rendering.scene_builder import BuiltScene, ModelReader, SceneBuilder, TextureMaker
+from worker.rendering.scene_builder import ModelReader, SceneBuilder, TextureMaker
 from worker.rendering.shading import surface_fields
 from worker.rendering.targets import Target, TargetPair
 from worker.rendering.tiles import (
@@ -115,16 +115,17 @@ def render(
     built = engine.builder.build(
         scene, width / height, textures, models, tangents="tangent" in output.layers
     )
+    placed = FlatScene(built.drawables, built.view, built.background)
+    lights = light_uniforms(built.lights, built.view.world_from_camera[:3, 3])
     timings = {"build_ms": _milliseconds(time.perf_counter() - start)}
     counts = {"triangles": built.triangles, "texels": built.texels}
-    lights = light_uniforms(built.lights, built.view.world_from_camera[:3, 3])
-    drawn = _bands(engine, built, lights, output, timings, report)
+    drawn = _bands(engine, placed, lights, output, timings, report)
     return Rendering(drawn, counts, timings, built.warnings)
 
 
 def _bands(
     engine: _Engine,
-    built: BuiltScene,
+    scene: FlatScene,
     lights: dict[str, Any],
     output: RenderOutput,
     timings: dict[str, float],
@@ -136,7 +137,6 @@ def _bands(
     most = LAYERED_SAMPLES_MAX if layered else SAMPLES_MAX
     size = tile_size(width, height, supersampling, most)
     target = engine.targets.fit(*size, supersampling, layered=layered)
-    scene = FlatScene(built.drawables, built.view, built.background)
     spent, jit_before = 0.0, engine.renderer.jit_seconds
     for tiles in bands(width, height, size):
         start = time.perf_counter()
@@ -146,7 +146,6 @@ def _bands(
             report((above + tile.height * tile.left / width) / height, "draw")
             engine.renderer.draw(
                 scene,
-                built.view,
                 lights,
                 target,
                 tile_from_picture(tile, width, height),

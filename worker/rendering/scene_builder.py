@@ -129,8 +129,8 @@ class SceneBuilder:
         view = view_of(scene.camera, models, vertices, aspect)
         background = self._background(scene.background, maker)
         shadings = [drawable.shading for drawable in drawables]
-        if background is not None and background.shading is not None:
-            shadings.append(background.shading)
+        if isinstance(background, Shading):
+            shadings.append(background)
         pictures = {
             picture.texture.number: picture.texture
             for shading in shadings
@@ -181,8 +181,8 @@ class SceneBuilder:
             return None
         if isinstance(spec, ColorMap):
             surface = UnlitSpec(technique="unlit", color=spec)
-            return Background(color=None, shading=self._shading(surface, maker))
-        return Background(color=tuple(min(value, LARGEST_LIGHT) for value in spec), shading=None)
+            return self._shading(surface, maker)
+        return tuple(min(value, LARGEST_LIGHT) for value in spec)
 
 
 def _nodes(nodes: list[Node], world_from_parent: Matrix) -> Iterator[tuple[Node, Matrix]]:

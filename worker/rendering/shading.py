@@ -172,7 +172,9 @@ def surface_tables(technique: str) -> dict[str, TextureSpec]:
     """
     textures = FAMILIES["textures"]
     return {
-        f"table_{name}": cast("TextureSpec", textures[name](technique=name, span="edges"))
+        f"table_{name}": cast(
+            "TextureSpec", textures[name].model_validate({"technique": name, "span": "edges"})
+        )
         for name in _TABLE.findall(chunk(f"surfaces/{technique}.glsl"))
     }
 

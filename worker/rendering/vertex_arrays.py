@@ -85,7 +85,8 @@ class VertexArray:
     def centre(self) -> NDArray[np.float64]:
         """The middle of its bounding box, (3,)."""
         low, high = self.positions.min(axis=0), self.positions.max(axis=0)
-        return 0.5 * low.astype(np.float64) + 0.5 * high.astype(np.float64)
+        middle: NDArray[np.float64] = 0.5 * low.astype(np.float64) + 0.5 * high.astype(np.float64)
+        return middle
 
     @functools.cached_property
     def convex(self) -> bool:

@@ -1,7 +1,7 @@
-"""Directional reflectance of GGX microfacets under a uniform sky (Karis, 2013, after Walter et al.).
+"""Reflectance of GGX microfacets under a uniform sky (Karis, 2013, after Walter et al., 2007).
 
-Of a half vector h with slope t alpha in the direction phi, D(h) n.h dh = dphi/pi t dt / (1 + t^2)^2,
-so that with the height-correlated shadowing G of Heitz (2014)
+For a half vector h that leans by alpha t in the direction phi, D(h) n.h dh is
+t / (pi (1 + t^2)^2) dt dphi, so that with the height-correlated shadowing G of Heitz (2014)
 
     A + B = int G (v.h) / ((n.v) (n.h)) D(h) n.h dh over those h that mirror v above the horizon,
 

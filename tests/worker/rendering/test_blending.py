@@ -16,6 +16,7 @@ from worker.geometry import primitives
 from worker.geometry.mesh import Mesh
 from worker.geometry.plane import plane
 from worker.images import image_io
+from worker.images.image import Image
 
 pytestmark = pytest.mark.gl
 
@@ -84,6 +85,17 @@ def test_what_is_behind_something_opaque_is_hidden_and_hides_nothing_itself(stud
     np.testing.assert_allclose(drawn[16, 16], [1.0, 0.5, 0.5, 1.0], rtol=1e-6)
 
 
+def test_a_pane_that_cuts_something_opaque_covers_the_part_behind_it(studio: Studio) -> None:
+    # Its middle is nearer than the pane's, but its right half leans back beyond the pane.
+    eighth = [0.0, 0.38268343, 0.0, 0.92387953]
+    slope = poster(0.1, {"technique": "unlit", "color": BLUE}, rotation=eighth)
+
+    drawn = studio.draw({"camera": CAMERA, "nodes": [slope, poster(0.0, glass(RED))]})
+
+    np.testing.assert_allclose(drawn[16, 8], [0.0, 0.0, 1.0, 1.0], rtol=1e-6)
+    np.testing.assert_allclose(drawn[16, 24], [0.5, 0.0, 0.5, 1.0], rtol=1e-6)
+
+
 def test_what_is_nearer_along_the_view_is_in_front_though_its_middle_is_far_aside(
     studio: Studio,
 ) -> None:
@@ -92,6 +104,17 @@ def test_what_is_nearer_along_the_view_is_in_front_though_its_middle_is_far_asid
     drawn = studio.draw({"camera": CAMERA, "nodes": [wide, poster(0.0, glass(BLUE))]})
 
     np.testing.assert_allclose(drawn[16, 16], [0.5, 0.0, 0.25, 0.75], rtol=1e-6)
+
+
+def test_of_equally_near_panes_the_later_one_is_in_front(studio: Studio) -> None:
+    red, blue = poster(0.0, glass(RED)), poster(0.0, glass(BLUE))
+
+    drawn = [
+        studio.draw({"camera": CAMERA, "nodes": n})[16, 16] for n in ([red, blue], [blue, red])
+    ]
+
+    np.testing.assert_allclose(drawn[0], [0.25, 0.0, 0.5, 0.75], rtol=1e-6)
+    np.testing.assert_allclose(drawn[1], [0.5, 0.0, 0.25, 0.75], rtol=1e-6)
 
 
 def test_highlights_and_emission_are_dimmed_with_the_rest(studio: Studio) -> None:
@@ -273,29 +296,61 @@ def test_vertex_colours_let_light_through_too(studio: Studio) -> None:
     np.testing.assert_allclose(drawn[2, 2], [0.25, 0.125, 0.0625, 0.25], rtol=1e-6)
 
 
+def glass_scene(studio: Studio) -> dict[str, Any]:
+    """Everything of this module before a picture."""
+    leaves = studio.texture(np.random.default_rng(3).random((8, 8)))
+    ring = {"type": "torus"}
+    return {
+        "camera": CAMERA,
+        "background": {"texture": studio.texture(np.random.default_rng(2).random((9, 9, 3)))},
+        "nodes": [
+            poster(0.0, {"technique": "unlit", "color": BLUE}, scale=[0.4, 0.4, 1.0]),
+            poster(-1.0, glass(GREEN, {"texture": leaves}, alpha_mode="mask"), scale=[0.9, 0.9, 1]),
+            poster(1.0, glass(RED), rotation=[0.3, 0.2, 0.1, 1.0]),
+            poster(0.5, glass(GREEN, 0.3), rotation=[-0.3, 0.1, 0.5, 1.0]),
+            {
+                "mesh": ring,
+                "transform": {"scale": [0.5, 0.5, 0.5]},
+                "surface": glass([1.0, 1.0, 1.0], 0.2),
+            },
+        ],
+    }
+
+
 def test_blended_pictures_in_tiles_are_the_picture(
     studio: Studio, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from worker.rendering import renderer  # noqa: PLC0415  needs OpenGL
 
-    nodes = [
-        poster(0.0, {"technique": "unlit", "color": BLUE}, scale=[0.4, 0.4, 1.0]),
-        poster(1.0, glass(RED), rotation=[0.3, 0.2, 0.1, 1.0]),
-        poster(0.5, glass(GREEN, 0.3), rotation=[-0.3, 0.1, 0.5, 1.0]),
-        {
-            "mesh": {"type": "torus"},
-            "transform": {"scale": [0.5, 0.5, 0.5]},
-            "surface": glass([1.0, 1.0, 1.0], 0.2),
-        },
-    ]
-    whole = studio.draw({"camera": CAMERA, "nodes": nodes}, (90, 70), 2)
+    whole = studio.draw(glass_scene(studio), (90, 70), 2)
     monkeypatch.setattr(renderer, "SAMPLES_MAX", 90 * 4 * 8)
 
-    cut = studio.draw({"camera": CAMERA, "nodes": nodes}, (90, 70), 2)
+    cut = studio.draw(glass_scene(studio), (90, 70), 2)
 
     error = np.abs(cut - whole).max(axis=2)
     assert np.median(error) < 1e-6
     assert (error > 1e-3).mean() < 0.01  # samples on an edge, as in an opaque picture
+
+
+@pytest.mark.parametrize("bits", [8, 16])
+def test_a_png_has_straight_alpha_and_an_exr_premultiplied(
+    studio: Studio, tmp_path: Path, bits: Any
+) -> None:
+    nodes = [poster(0.0, glass([1.0, 0.5, 0.0], 0.5)), poster(1.0, glass([0.0, 0.5, 1.0], 0.5))]
+    drawn = Image(studio.draw({"camera": CAMERA, "nodes": nodes}, (4, 4)), "colour")
+    png, exr = tmp_path / "p.png", tmp_path / "p.exr"
+
+    image_io.encode_png(drawn, png, bits=bits, transfer="linear")
+    image_io.encode_exr({"": drawn}, exr, pixel_type="float", digest="", version="")
+
+    # Over each other: (1, .5, 0) / 4 + (0, .5, 1) / 2, with 3/4 of coverage.
+    light = np.array([0.25, 0.375, 0.5])
+    stored = image_io.read(png, "linear", "data").pixels
+    straight = [*(light / 0.75), 0.75]
+    np.testing.assert_allclose(stored[2, 2], straight, atol=0.5 / (2**bits - 1) + 1e-6)
+    np.testing.assert_allclose(
+        image_io.read(exr, "linear", "data").pixels[2, 2], [*light, 0.75], rtol=1e-6
+    )
 
 
 @pytest.mark.golden

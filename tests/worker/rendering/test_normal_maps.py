@@ -218,12 +218,29 @@ def test_without_coordinates_a_flat_map_is_still_flat(studio: Studio) -> None:
 
 
 @pytest.mark.parametrize(
-    "held", [[0.0, 0.0, 0.0], [np.nan, 0.0, 1.0], [0.0, np.inf, 1.0], [1e30, 0.0, 0.0]]
+    "held", [[0.0, 0.0, 0.0], [np.nan, 0.0, 1.0], [0.0, np.inf, 1.0], [1.0, 1.0, -np.inf]]
 )
-def test_a_map_without_a_direction_leaves_a_finite_picture(studio: Studio, held: Any) -> None:
+def test_where_a_map_has_no_direction_the_surface_keeps_its_own(studio: Studio, held: Any) -> None:
     seen = normals(studio, {"mesh": {"type": "plane"}}, constant(studio, held, range="signed"))
 
-    assert np.isfinite(seen).all()
+    np.testing.assert_allclose(seen[4, 4], [0, 0, 1], atol=TOLERANCE)
+
+
+@pytest.mark.parametrize("factor", [1e-30, 1e30])
+def test_only_the_direction_counts(studio: Studio, factor: float) -> None:
+    held = constant(studio, factor * TILT, range="signed")
+
+    seen = normals(studio, {"mesh": {"type": "plane"}}, held)
+
+    np.testing.assert_allclose(seen[4, 4], unit(TILT), atol=TOLERANCE)
+
+
+def test_the_steepest_tilt_is_a_right_angle(studio: Studio) -> None:
+    held = constant(studio, [0.6, 0.0, 0.8], range="signed", strength=1e30)
+
+    seen = normals(studio, {"mesh": {"type": "plane"}}, held)
+
+    np.testing.assert_allclose(seen[4, 4], [1, 0, 0], atol=TOLERANCE)
 
 
 def test_points_take_no_notice_of_a_normal_map(studio: Studio) -> None:

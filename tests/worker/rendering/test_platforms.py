@@ -14,17 +14,22 @@ pytestmark = pytest.mark.gl
 ROOT = Path(__file__).resolve().parents[3]
 PROGRAM = """
 import hashlib
+import numpy as np
 from typing import get_args
 from api_schemas.output import Layer
 from tests.worker.rendering.studio import Studio
+from tests.worker.rendering.test_blending import glass_scene
+from tests.worker.rendering.test_metallic_roughness import polished_things
 from tests.worker.rendering.test_renderer import still_life
 from worker.rendering.renderer import fingerprint, render
 
 studio = Studio(render)
 pixels = studio.draw(still_life(studio), (300, 200), 2)
 assert pixels.any()
+pixels = np.concatenate([pixels, studio.draw(polished_things(studio), (300, 200), 2)])
 layers = studio.layers(still_life(studio), get_args(Layer), (200, 300), 3)
-bits = pixels.tobytes() + b"".join(layers[name].tobytes() for name in sorted(layers))
+bits = pixels.tobytes() + studio.draw(glass_scene(studio), (200, 150), 2).tobytes()
+bits += b"".join(layers[name].tobytes() for name in sorted(layers))
 print(hashlib.sha256(bits).hexdigest(), fingerprint(), sep="|")
 """
 

@@ -39,9 +39,9 @@ class Accessors:
         raw = self.raw(index, rows)
         values = raw.astype(np.float64)
         if raw.dtype.kind == "f":
-            good = np.isfinite(values).all(axis=1)
+            good = np.isfinite(values)
             if not good.all():
-                row = int(np.argmin(good))
+                row = int(np.argmin(good.all(axis=1)))
                 element = row if rows is None else int(rows[row])
                 raise unusable(f"/accessors/{index}", f"element {element} is not finite")
         elif accessor.normalized:

@@ -5,7 +5,12 @@ from collections.abc import Iterable
 from worker.geometry.gltf.document.meshes import Primitive
 from worker.geometry.gltf.document.root import Document
 from worker.geometry.gltf.faults import too_large
-from worker.geometry.gltf.limits import MORPHED_VERTICES_MAX, PARTS_MAX
+from worker.geometry.gltf.limits import (
+    MORPHED_VERTICES_MAX,
+    PARTS_MAX,
+    VERTEX_BYTES_MAX,
+)
+from worker.geometry.gltf.semantics import UV_SETS_MAX, sets_of
 from worker.geometry.gltf.topology import KINDS, count_of
 from worker.geometry.model_limits import TRIANGLES_MAX, VERTICES_MAX
 
@@ -16,7 +21,7 @@ class Budget:
     def __init__(self, document: Document) -> None:
         """Begin with nothing."""
         self._document = document
-        self._parts = self._drawn = self._vertices = self._morphed = 0
+        self._parts = self._drawn = self._vertices = self._bytes = self._morphed = 0
 
     def draw(self, primitives: Iterable[Primitive]) -> None:
         """Count a mesh at one more place.
@@ -43,7 +48,9 @@ class Budget:
             if KINDS[primitive.mode] == "triangles" and "NORMAL" not in primitive.attributes:
                 vertices = 3 * count_of(primitive.mode, self._indices(primitive))
             self._vertices += vertices
+            self._bytes += vertices * _bytes_of_one(primitive)
         _check(self._vertices, VERTICES_MAX, "vertices")
+        _check(self._bytes, VERTEX_BYTES_MAX, "bytes of vertices")
         _check(self._morphed, MORPHED_VERTICES_MAX, "vertices times morph targets")
 
     def _indices(self, primitive: Primitive) -> int:
@@ -54,6 +61,13 @@ class Budget:
     def _count(self, primitive: Primitive) -> int:
         position = primitive.attributes.get("POSITION")
         return 0 if position is None else self._document.accessors[position].count
+
+
+def _bytes_of_one(primitive: Primitive) -> int:
+    """Return what a vertex occupies: its position and normal, and what else it brings."""
+    sets = min(len(sets_of(list(primitive.attributes), "TEXCOORD")), UV_SETS_MAX)
+    fours = sum(name in primitive.attributes for name in ("TANGENT", "COLOR_0"))
+    return 8 * (6 + 2 * sets + 4 * fours)
 
 
 def _check(count: int, most: int, what: str) -> None:

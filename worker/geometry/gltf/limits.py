@@ -5,8 +5,8 @@ Everything is counted before memory is taken for it.
 
 from typing import Final
 
-JSON_BRACKETS_MAX: Final = 500_000
-"""Objects and arrays. Ten thousand nodes with a mesh each have half of it."""
+JSON_BRACKETS_MAX: Final = 300_000
+"""Objects and arrays. Ten thousand nodes with a mesh each have 250 000."""
 JSON_COMMAS_MAX: Final = 4_000_000
 JSON_BYTES_MAX: Final = 160 * 2**20
 
@@ -16,10 +16,13 @@ DATA_URI_BYTES_MAX: Final = 128 * 2**20
 PICTURE_BYTES_MAX: Final = 256 * 2**20
 """Bytes of all pictures together, as files."""
 
-NODES_MAX: Final = 10_000
-ITEMS_MAX: Final = 50_000
-"""Of any other list of the document: five for each node."""
+ITEMS_MAX: Final = 10_000
+"""Nodes, meshes, materials and so on, of each."""
+ACCESSORS_MAX: Final = 50_000
+"""Accessors or buffer views: five for each mesh."""
 PARTS_MAX: Final = 10_000
+VERTEX_BYTES_MAX: Final = 512 * 2**20
+"""What all vertices occupy in float64."""
 ELEMENTS_MAX: Final = 32_000_000
 """Elements of one accessor: what fits an upload of the usual limit and more."""
 MORPHED_VERTICES_MAX: Final = 64_000_000

@@ -84,8 +84,6 @@ def _jpeg(content: bytes | memoryview) -> PictureFile:
             place += 1 if marker == 0xFF else 2
             continue
         length = int.from_bytes(content[place + 2 : place + 4], "big")
-        if length < 2:
-            break
         if marker in _JPEG_FRAMES and length >= 8 and place + 9 <= len(content):
             height, width = struct.unpack_from(">HH", content, place + 5)
             if not width:

@@ -161,7 +161,7 @@ def _buffer(
         raise unusable(
             place, f"{buffer.byte_length} bytes are claimed where there are {len(content)}"
         )
-    return content[: buffer.byte_length]
+    return content
 
 
 def _image(

@@ -23,6 +23,7 @@ from worker.geometry.gltf.vertices import Floats, Vertices, morphed
 from worker.geometry.mesh import Mesh
 
 _SPARSELY_USED = 4
+_ANY_DIRECTION = (0.0, 0.0, 1.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,8 +79,10 @@ def shape(
             inside_out = mirrored[elements[:, 0]]
             elements[inside_out] = elements[inside_out, ::-1]
     if vertices.normals is None and KINDS[primitive.mode] == "triangles":
-        vertices, elements = _faceted(vertices, elements)
-    return _finished(vertices, elements, primitive.mode, warnings)
+        vertices, normals, elements = _faceted(vertices, elements)
+    else:
+        normals = _smooth(vertices, elements)
+    return _finished(vertices, normals, elements, primitive.mode, warnings)
 
 
 def _elements(
@@ -89,8 +92,11 @@ def _elements(
     count = document.accessors[primitive.attributes["POSITION"]].count
     if primitive.indices is None:
         return assemble(primitive.mode, np.arange(count)), None
-    indices = accessors.raw(primitive.indices)[:, 0].astype(np.int64)
+    stored = accessors.raw(primitive.indices)[:, 0]
+    indices = stored.astype(np.int64)
     highest = int(indices.max())
+    if highest == np.iinfo(stored.dtype).max:
+        raise unusable(f"{place}/indices", f"index {highest} would restart the primitive")
     if highest >= count:
         position = int(np.argmax(indices))
         raise unusable(f"{place}/indices", f"index {position} is {highest}, not below {count}")
@@ -107,24 +113,38 @@ def _elements(
 
 def _faceted(
     vertices: Vertices, triangles: NDArray[np.int64]
-) -> tuple[Vertices, NDArray[np.int64]]:
+) -> tuple[Vertices, Floats, NDArray[np.int64]]:
     """Give each triangle corners of its own and its own normal; tangents without normals go."""
-    split = vertices.taken(triangles.ravel())
-    corners = split.positions.reshape(-1, 3, 3)
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    split = replace(split, normals=np.repeat(normals, 3, axis=0), tangents=None)
-    return split, np.arange(3 * len(triangles)).reshape(-1, 3)
+    split = replace(vertices, tangents=None).taken(triangles.ravel())
+    normals, length = _unit(_areas(split.positions.reshape(-1, 3, 3)))
+    normals[length == 0] = _ANY_DIRECTION
+    corners = np.arange(3 * len(triangles)).reshape(-1, 3)
+    return split, np.repeat(normals, 3, axis=0), corners
+
+
+def _smooth(vertices: Vertices, elements: NDArray[np.int64]) -> Floats:
+    """Bring normals to length one; where a triangle has none, take the mean of its neighbours."""
+    if vertices.normals is None:
+        return np.zeros_like(vertices.positions)
+    normals, length = _unit(vertices.normals)
+    if elements.shape[1] < 3 or length.all():
+        return normals
+    areas = _areas(vertices.positions[elements])
+    sums = np.zeros_like(normals)
+    for corner in range(3):
+        np.add.at(sums, elements[:, corner], areas)
+    means, found = _unit(sums)
+    means[found == 0] = _ANY_DIRECTION
+    return np.where(length[:, None] > 0, normals, means)
 
 
 def _finished(
-    vertices: Vertices, elements: NDArray[np.int64], mode: int, warnings: list[str]
+    vertices: Vertices,
+    normals: Floats,
+    elements: NDArray[np.int64],
+    mode: int,
+    warnings: list[str],
 ) -> Mesh:
-    kind = KINDS[mode]
-    normals = np.zeros_like(vertices.positions)
-    if vertices.normals is not None:
-        normals, length = _unit(vertices.normals)
-        if kind == "triangles" and not length.all():
-            normals = _completed(normals, length, vertices.positions, elements)
     colors = vertices.colors
     if colors is not None and (colors.min() < 0 or colors.max() > 1):
         warnings.append("vertex colours outside of 0..1 are cut")
@@ -136,7 +156,7 @@ def _finished(
         triangles=elements.astype(np.uint32),
         tangents=_tangents(vertices, warnings),
         colors=colors,
-        kind=kind,
+        kind=KINDS[mode],
     )
 
 
@@ -152,22 +172,22 @@ def _tangents(vertices: Vertices, warnings: list[str]) -> Floats | None:
 
 
 def _unit(vectors: Floats) -> tuple[Floats, Floats]:
-    """Return the vectors at length one, or zero, and which length they had."""
-    largest = np.abs(vectors).max(axis=1, keepdims=True)
-    scaled = vectors / np.where(largest > 0, largest, 1.0)
-    length = np.linalg.norm(scaled, axis=1, keepdims=True)
-    return scaled / np.where(length > 0, length, 1.0), length[:, 0]
+    """Return the vectors at length one, or zero, and the latter where they have none."""
+    x, y, z = np.abs(vectors).T
+    largest = np.maximum(np.maximum(x, y), z)
+    scaled = vectors / np.where(largest > 0, largest, 1.0)[:, None]
+    length = np.sqrt(np.einsum("ij,ij->i", scaled, scaled))
+    return scaled / np.where(length > 0, length, 1.0)[:, None], length
 
 
-def _completed(
-    normals: Floats, length: Floats, positions: Floats, triangles: NDArray[np.int64]
-) -> Floats:
-    """Give vertices without a normal the mean of their triangles', or +z where those have none."""
-    corners = positions[triangles]
-    areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    sums = np.zeros_like(positions)
-    for corner in range(3):
-        np.add.at(sums, triangles[:, corner], areas)
-    means, found = _unit(sums)
-    means[found == 0] = (0.0, 0.0, 1.0)
-    return np.where(length[:, None] > 0, normals, means)
+def _areas(corners: Floats) -> Floats:
+    """Return the normals of triangles (n, 3, 3), twice as long as their areas are large."""
+    a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    return np.stack(
+        [
+            a[:, 1] * b[:, 2] - a[:, 2] * b[:, 1],
+            a[:, 2] * b[:, 0] - a[:, 0] * b[:, 2],
+            a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0],
+        ],
+        axis=1,
+    )

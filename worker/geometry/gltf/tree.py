@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from worker.errors import UnusableAssetError
+from worker.errors import RenderError
 from worker.geometry.gltf.document.root import Document
 from worker.geometry.gltf.document.scene import Node
 from worker.geometry.gltf.faults import unusable
@@ -75,10 +75,13 @@ def shown_nodes(document: Document, tree: Tree, scene: int | None) -> list[int]:
         scene: Which scene; the document's own without, else its first, else all there is.
 
     Raises:
-        UnusableAssetError: There is no such scene.
+        RenderError: There is no such scene (`model_part_unknown`).
     """
     if scene is not None and scene >= len(document.scenes):
-        raise UnusableAssetError(f"there is no scene {scene}; the file has {len(document.scenes)}")
+        raise RenderError(
+            f"the model has {len(document.scenes)} scenes and no scene {scene}",
+            code="model_part_unknown",
+        )
     if scene is None:
         scene = document.scene if document.scene is not None else 0
     if scene < len(document.scenes):

@@ -13,13 +13,12 @@ from urllib.parse import unquote_to_bytes
 
 from worker.errors import AssetMissingError
 from worker.geometry.gltf.faults import unsupported, unusable
+from worker.geometry.siblings import NAME_LENGTH_MAX, shown
 
-NAME_LENGTH_MAX: Final = 256
 _DATA: Final = "data:"
 _MEDIA_TYPE: Final = re.compile(r"[a-z0-9.+-]{1,64}/[a-z0-9.+-]{1,64}")
 _SCHEME: Final = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:")
 _PERCENT: Final = re.compile(r"%(?![0-9A-Fa-f]{2})")
-_UNPRINTED: Final = re.compile(r"[^\w .()+,@=~-]")
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,11 +80,6 @@ def file_name(uri: str, place: str) -> str:
             place, f"the URI is not a plain relative path of 1 to {NAME_LENGTH_MAX} characters"
         )
     return name
-
-
-def shown(name: str) -> str:
-    """Make a file name fit for a message: its last part, harmless characters, not long."""
-    return _UNPRINTED.sub("?", name.rpartition("/")[2])[:64]
 
 
 def _decoded(uri: str, place: str) -> Resource:

@@ -95,14 +95,15 @@ def data_uri(content: bytes, media_type: str = "application/octet-stream") -> st
     return f"data:{media_type};base64,{base64.b64encode(content).decode()}"
 
 
-def png(*, alpha: bool = False) -> bytes:
-    """A white pixel."""
+def png(*, alpha: bool = False, transparent: bool = False) -> bytes:
+    """A white pixel, with an alpha channel, or with white declared transparent."""
     colour = 6 if alpha else 2
     row = b"\0" + b"\xff" * (4 if alpha else 3)
     return b"\x89PNG\r\n\x1a\n" + b"".join(
         struct.pack(">I", len(body)) + name + body + struct.pack(">I", zlib.crc32(name + body))
         for name, body in (
             (b"IHDR", struct.pack(">IIBBBBB", 1, 1, 8, colour, 0, 0, 0)),
+            *([(b"tRNS", b"\0\xff" * 3)] if transparent else []),
             (b"IDAT", zlib.compress(row)),
             (b"IEND", b""),
         )

@@ -175,6 +175,41 @@ def test_a_view_that_cannot_be_is_refused(change: dict[str, Any], word: str) -> 
     assert word in refused(builder).message
 
 
+def test_views_and_offsets_must_add_up_to_multiples_of_the_component() -> None:
+    builder = Builder()
+    builder.view(bytes(16))
+    builder.json["bufferViews"][0] |= {"byteOffset": 2, "byteLength": 14}
+    item = {"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 1}
+    builder.add("accessors", item)
+
+    assert refused(builder).message == "/accessors/0: it begins at no multiple of 4 bytes"
+
+
+def test_a_matrix_of_bytes_begins_at_a_multiple_of_four() -> None:
+    builder = Builder()
+    view = builder.view(bytes(16))
+    item = {"bufferView": view, "componentType": 5121, "type": "MAT3", "count": 1, "byteOffset": 2}
+    builder.add("accessors", item)
+
+    assert refused(builder).message.startswith("/accessors/0/byteOffset: a matrix")
+
+
+def test_no_more_elements_can_be_replaced_than_there_are() -> None:
+    builder = Builder()
+    index = sparse(builder, [0, 1, 2], [5, 6, 7], 2, None)
+
+    assert "3 is more than all 2" in refused(builder, index).message
+
+
+@pytest.mark.parametrize("part", ["indices", "values"])
+def test_a_sparse_part_must_fit_its_view(part: str) -> None:
+    builder = Builder()
+    index = sparse(builder, [0, 1], [5, 6], 4, None)
+    builder.json["accessors"][index]["sparse"][part]["byteOffset"] = 4
+
+    assert refused(builder, index).message.startswith(f"/accessors/0/sparse/{part}: it ends")
+
+
 def test_a_buffer_that_is_shorter_than_it_says_is_refused() -> None:
     builder = Builder()
     builder.mesh()

@@ -47,6 +47,16 @@ def test_gltf_1_four_billion_vertices_in_48_bytes() -> None:
     assert "vertices; at most 8388608" in refused(builder.glb()).message
 
 
+def test_many_attributes_of_vertices_that_are_nowhere_are_counted_in_bytes() -> None:
+    builder = Builder()
+    four = builder.add("accessors", {"componentType": 5126, "type": "VEC4", "count": 5_000_000})
+    three = builder.add("accessors", {"componentType": 5126, "type": "VEC3", "count": 5_000_000})
+    attributes = {"POSITION": three, "NORMAL": three, "TANGENT": four, "COLOR_0": four}
+    builder.json |= shown(builder.add("meshes", {"primitives": [{"attributes": attributes}]}))
+
+    assert f"{5_000_000 * 14 * 8} bytes of vertices" in refused(builder.glb()).message
+
+
 def test_gltf_2_a_data_uri_of_200_megabytes() -> None:
     head = '{"asset":{"version":"2.0"},"buffers":[{"byteLength":157286400,"uri":"data:;base64,'
     text = head.encode() + b"A" * (200 << 20) + b'"}]}'

@@ -99,7 +99,7 @@ def test_depth_is_bounded_and_brackets_in_strings_are_not_depth() -> None:
 
 
 def test_a_document_of_millions_of_values_is_too_large() -> None:
-    lists = b'{"extras":[' + b"[]," * 500_001 + b"[]]}"
+    lists = b'{"extras":[' + b"[]," * 300_001 + b"[]]}"
     numbers = b'{"extras":[' + b"0," * 4_000_001 + b"0]}"
 
     assert refused(lists).code == "asset_too_large"

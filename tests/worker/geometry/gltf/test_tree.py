@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from tests.worker.geometry.gltf.building import Builder
-from worker.errors import UnusableAssetError
-from worker.geometry.gltf.limits import NODES_MAX
+from worker.errors import RenderError, UnusableAssetError
+from worker.geometry.gltf.limits import ITEMS_MAX
 from worker.geometry.gltf.reader import read
 
 HALF = math.sqrt(0.5)
@@ -20,9 +20,9 @@ def scene_of(nodes: list[dict[str, Any]], **members: Any) -> Builder:
     return builder
 
 
-def refused(builder: Builder, scene: int | None = None) -> str:
+def refused(builder: Builder) -> str:
     with pytest.raises(UnusableAssetError) as caught:
-        read(builder.glb(), {}, scene)
+        read(builder.glb(), {})
     return caught.value.message
 
 
@@ -66,7 +66,9 @@ def test_the_scene_is_the_one_asked_for_else_the_files_own_else_its_first() -> N
     assert seen() == ["a"]
     del builder.json["scenes"]
     assert seen() == ["a", "b", "c"]
-    assert "no scene 0" in refused(builder, 0)
+    with pytest.raises(RenderError, match="0 scenes and no scene 0") as caught:
+        seen(0)
+    assert caught.value.code == "model_part_unknown"
 
 
 @pytest.mark.parametrize(
@@ -107,8 +109,14 @@ def test_a_scene_shows_only_roots() -> None:
 
 def test_the_deepest_tree_that_is_taken_is_composed_to_its_end() -> None:
     nodes: list[dict[str, Any]] = [
-        {"children": [i + 1], "translation": [1, 0, 0]} for i in range(NODES_MAX - 1)
+        {"children": [i + 1], "translation": [1, 0, 0]} for i in range(ITEMS_MAX - 1)
     ]
     (part,) = read(scene_of([*nodes, {"mesh": 0}]).glb(), {}).parts
 
-    assert part.matrix[:3, 3].tolist() == [NODES_MAX - 1, 0, 0]
+    assert part.matrix[:3, 3].tolist() == [ITEMS_MAX - 1, 0, 0]
+
+
+def test_a_later_version_is_told() -> None:
+    builder = Builder(asset={"version": "2.1", "minVersion": "2.0"})
+
+    assert read(builder.gltf(), {}).warnings == ("it is made for a later glTF than 2.0",)

@@ -14,7 +14,7 @@ from worker.geometry.gltf.document.meshes import Mesh, Skin
 from worker.geometry.gltf.document.pictures import Image, Sampler, Texture
 from worker.geometry.gltf.document.scene import Camera, Lights, Node, Scene
 from worker.geometry.gltf.faults import spoken, too_large, unusable
-from worker.geometry.gltf.limits import ITEMS_MAX, NODES_MAX
+from worker.geometry.gltf.limits import ACCESSORS_MAX, ITEMS_MAX
 
 _VERSION = re.compile(r"([0-9]{1,6})\.([0-9]{1,6})")
 
@@ -83,7 +83,7 @@ def read_document(value: dict[str, Any]) -> Document:
     """
     for name in Document.model_fields:
         items = value.get(to_camel(name))
-        most = NODES_MAX if name == "nodes" else ITEMS_MAX
+        most = ACCESSORS_MAX if name in ("accessors", "buffer_views") else ITEMS_MAX
         if isinstance(items, list) and len(items) > most:
             raise too_large(f"/{to_camel(name)}", f"{len(items)} items; at most {most} are taken")
     try:

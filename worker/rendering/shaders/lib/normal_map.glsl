@@ -8,6 +8,8 @@
 vec3 tilted_normal(SurfacePoint point, vec3 normal, vec3 tilt) {
     vec3 tangent = point.tangent.xyz;
     vec3 bitangent = point.tangent.w * cross(normal, tangent);
+    vec3 size = abs(tilt);
+    tilt /= max(size.x, max(size.y, size.z));  // lest the square of a large one is infinite
     vec3 tilted = tilt.x * tangent + tilt.y * bitangent + tilt.z * normal;
     float squared = dot(tilted, tilted);
     bool usable = tangent != vec3(0.0) && squared > 0.0;

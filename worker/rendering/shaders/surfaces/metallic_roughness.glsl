@@ -30,7 +30,7 @@ vec3 reflectance(float seen, float roughness) {
 // Fresnel's reflection: f0 head-on, f90 at grazing angles.
 struct Fresnel {
     vec3 f0;
-    float f90;
+    vec3 f90;
 };
 
 vec3 reflected_at(Fresnel fresnel, float grazing) {
@@ -42,6 +42,13 @@ vec3 reflected_of_all(Fresnel fresnel, vec3 table) {
     return fresnel.f0 * table.r + fresnel.f90 * table.g;
 }
 
+// What has bounced between microfacets comes out too (Turquin 2019): brighter by
+// 1 + F0 (1 - A - B) / (A + B), where lost is that last fraction.
+Fresnel regained(Fresnel fresnel, float lost) {
+    vec3 gain = 1.0 + lost * fresnel.f0;
+    return Fresnel(fresnel.f0 * gain, fresnel.f90 * gain);
+}
+
 float largest(vec3 color) {
     return max(color.r, max(color.g, color.b));
 }
@@ -49,8 +56,7 @@ float largest(vec3 color) {
 // glTF 2.0, appendix B, with KHR_materials_ior, _specular and _clearcoat:
 // F = F0 + (F90 - F0) (1 - v.h)^5, f = (1 - metallic) (1 - F) c / pi + F D V, the varnish on top.
 // Ambient light comes from everywhere alike: its reflection is F0 A + F90 B, and what a dielectric
-// does not reflect reaches the matt part. Energy compensation makes reflections brighter by
-// 1 + F0 (1 - A - B) / (A + B), for what has bounced between microfacets (Turquin 2019).
+// does not reflect reaches the matt part.
 // A point without a normal shows emission + c.
 vec4 shade(SurfacePoint point, Surface surface) {
     vec3 base = surface.base_color * point.color.rgb;
@@ -59,14 +65,17 @@ vec4 shade(SurfacePoint point, Surface surface) {
     float specular = clamp(surface.specular, 0.0, 1.0);
     float ratio = (surface.ior - 1.0) / (surface.ior + 1.0);
     vec3 dielectric_f0 = specular * clamp(ratio * ratio * surface.specular_color, 0.0, 1.0);
-    Fresnel dielectric = Fresnel(dielectric_f0, specular);
-    Fresnel whole = Fresnel(mix(dielectric_f0, base, metallic), mix(specular, 1.0, metallic));
+    Fresnel dielectric = Fresnel(dielectric_f0, vec3(specular));
     vec3 matt = (1.0 - metallic) * base;
     float alpha = alpha_of(surface.roughness);
     float seen = clamp(dot(point.normal, point.view), 0.0, 1.0);
     vec3 table = reflectance(seen, surface.roughness);
     float lost = surface.energy_compensation == 1 ? (1.0 - table.b) / table.b : 0.0;
-    vec3 gain = 1.0 + lost * whole.f0;
+    Fresnel brighter = regained(dielectric, lost);
+    Fresnel metal = regained(Fresnel(base, vec3(1.0)), lost);
+    Fresnel both = Fresnel(
+        mix(brighter.f0, metal.f0, metallic), mix(brighter.f90, metal.f90, metallic)
+    );
 
     float coat_alpha = alpha_of(surface.clearcoat_roughness);
     float coat_seen = clamp(dot(point.smooth_normal, point.view), 0.0, 1.0);
@@ -74,9 +83,8 @@ vec4 shade(SurfacePoint point, Surface surface) {
         * (COAT_F0 + (1.0 - COAT_F0) * schlick(coat_seen));
 
     vec3 all_around = surface.occlusion * ambient_radiance;
-    vec3 kept = reflected_of_all(dielectric, table) * (1.0 + lost * dielectric_f0);
-    vec3 mirrored = reflected_of_all(whole, table) * gain;
-    vec3 radiance = surface.emission + all_around * (matt * (1.0 - largest(kept)) + mirrored);
+    vec3 below_all = matt * (1.0 - largest(reflected_of_all(brighter, table)));
+    vec3 radiance = surface.emission + all_around * (below_all + reflected_of_all(both, table));
     vec3 on_coat = all_around * reflectance(coat_seen, surface.clearcoat_roughness).b;
     for (int i = 0; i < light_count; i++) {
         Light light = light_at(i, point.position);
@@ -88,7 +96,7 @@ vec4 shade(SurfacePoint point, Surface surface) {
         vec3 below = matt * ((1.0 - largest(reflected_at(dielectric, grazing))) * facing / PI);
         float peak = highlight(point.normal, half_way, facing, seen, alpha);
         float coat_peak = highlight(point.smooth_normal, half_way, coat_facing, coat_seen, coat_alpha);
-        radiance += (below + gain * reflected_at(whole, grazing) * peak) * light.irradiance;
+        radiance += (below + reflected_at(both, grazing) * peak) * light.irradiance;
         on_coat += coat_peak * light.irradiance;
     }
     return vec4(mix(radiance, on_coat, coat), 1.0);
