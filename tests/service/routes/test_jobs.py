@@ -266,7 +266,7 @@ def test_get_waits_for_the_end_where_that_is_preferred(client):
 
 
 def test_history_tells_how_long_it_will_take(make_client):
-    """Two jobs of .3 s and one slot: the third has half of that to go at most, the fourth more."""
+    """A job took .3 s: the next in line waits about as long, and then takes its own time."""
     client = make_client(slots=1)
     first = submit(client, seed=1004, size=[1, 1]).json()
     second = submit(client, seed=1002, size=[1, 2], wait=0).json()
