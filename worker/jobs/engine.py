@@ -13,6 +13,7 @@ from worker.jobs.assets import Assets
 from worker.jobs.batches import Batches
 from worker.jobs.bell import Bell
 from worker.jobs.claims import Claims
+from worker.jobs.crew import Crew
 from worker.jobs.database import Database
 from worker.jobs.environment import child_environment
 from worker.jobs.errors import DrainingError
@@ -33,7 +34,6 @@ from worker.jobs.room import Room
 from worker.jobs.run_times import RunTimes
 from worker.jobs.settling import Desk
 from worker.jobs.slot import Slot
-from worker.jobs.slot_thread import SlotThread
 from worker.jobs.status import Readiness, Status, StoreStatus, queues
 from worker.jobs.watch import Watch
 
@@ -125,10 +125,7 @@ class EmbeddedEngine:
             return Slot(module, self._environment, memory_limit_bytes=memory_limit_bytes)
 
         self._lock: IO[bytes] | None = None
-        self._threads = [
-            SlotThread(f"slot-{n}", partial(slot, executor), desk, recycle_after)
-            for n in range(slots)
-        ]
+        self._crew = Crew(slots, partial(slot, executor), desk, recycle_after)
         self._measuring = Measuring(slot(measurer), self.assets.folder)
 
     def start(self) -> None:
@@ -147,8 +144,7 @@ class EmbeddedEngine:
         except BaseException:
             self._let_go()
             raise
-        for thread in self._threads:
-            thread.start()
+        self._crew.start()
         self._housekeeping.start()
         self.watch.start()
 
@@ -158,16 +154,7 @@ class EmbeddedEngine:
         What is not finished in time goes back into the queue, and is done after the next start.
         """
         self._draining.set()
-        for thread in self._threads:
-            thread.stop()
-        self._line.announce(len(self._threads))
-        deadline = time.monotonic() + timeout_seconds
-        for thread in self._threads:
-            thread.join(max(0.0, deadline - time.monotonic()))
-        for thread in self._threads:
-            thread.abandon()
-        for thread in self._threads:
-            thread.join()
+        self._crew.drain(timeout_seconds)
         self._measuring.close()
         self._housekeeping.stop()
         self.watch.close()
@@ -242,19 +229,15 @@ class EmbeddedEngine:
 
     async def finished(self, job: Job, timeout_seconds: float) -> Job:
         """A job as soon as it is finished, or as it is when the time is up."""
-        deadline = asyncio.get_running_loop().time() + timeout_seconds
-        with self._bell.listening(job.work_id) as rung:
-            while job.state not in FINAL_STATES:
-                rung.clear()
-                known = await asyncio.to_thread(self.get, job.tenant, job.id)
-                job = known or job
-                if job.state in FINAL_STATES:
-                    break
-                try:
-                    async with asyncio.timeout_at(deadline):
-                        await rung.wait()
-                except TimeoutError:
-                    break
+
+        async def is_over() -> bool:
+            nonlocal job
+            known = await asyncio.to_thread(self.get, job.tenant, job.id)
+            job = known or job
+            return job.state in FINAL_STATES
+
+        if job.state not in FINAL_STATES:
+            await self._bell.until(job.work_id, is_over, timeout_seconds)
         return job
 
     def result_path(self, job: Job) -> Path | None:
@@ -278,9 +261,9 @@ class EmbeddedEngine:
         """Whether work would be done."""
         counts = self._claims.counts()
         return Readiness(
-            slots=len(self._threads),
-            warm_slots=sum(thread.is_warm for thread in self._threads),
-            fingerprint=self._fingerprint(),
+            slots=len(self._crew),
+            warm_slots=self._crew.warm,
+            fingerprint=self._crew.fingerprint,
             draining=self._draining.is_set(),
             queued=counts.get("queued", 0),
             running=counts.get("running", 0),
@@ -291,10 +274,10 @@ class EmbeddedEngine:
         return Status(
             draining=self._draining.is_set(),
             uptime_seconds=time.monotonic() - self._started,
-            fingerprint=self._fingerprint(),
+            fingerprint=self._crew.fingerprint,
             typical_seconds=self._run_times.typical(),
             queues=queues(self._database),
-            slots=tuple(thread.status() for thread in self._threads),
+            slots=self._crew.status(),
             store=StoreStatus(
                 result_bytes=self._results.bytes,
                 results=self._results.count,
@@ -329,11 +312,8 @@ class EmbeddedEngine:
             self._line.cancel(work_id)
         self._bell.ring(work_id)
 
-    def _fingerprint(self) -> str | None:
-        return next((one.fingerprint for one in self._threads if one.fingerprint), None)
-
     def _is_reusable(self, work_id: str, fingerprint: str | None) -> bool:
         """Whether a result is still there, and no warm child says that it comes from elsewhere."""
-        return self._fingerprint() in (None, fingerprint) and (
+        return self._crew.fingerprint in (None, fingerprint) and (
             self._results.find(work_id) is not None
         )
