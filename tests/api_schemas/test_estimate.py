@@ -275,3 +275,42 @@ def test_a_picture_behind_everything_is_counted():
     behind = RenderRequest.model_validate(request.model_dump() | {"scene": scene})
 
     assert estimate(behind, facts).seconds > 1.1 * estimate(request, facts).seconds
+
+
+def boxes(count, **more):
+    row = {"mesh": {"type": "box", "width": 0.5, "height": 0.5, "depth": 0.5}}
+    nodes = [
+        row | {"transform": {"translation": [float(index % 32), float(index // 32), 0.0]}} | more
+        for index in range(count)
+    ]
+    return RenderRequest.model_validate({"scene": {"nodes": nodes}})
+
+
+def test_as_many_framed_boxes_as_there_may_be_are_let_in():
+    cost = estimate(boxes(1024), {})
+
+    assert not cost.exceeds(Cost(Settings().cost_limit_seconds, Settings().cost_limit_bytes))
+    assert cost.seconds < 4 * estimate(boxes(256), {}).seconds
+
+
+def test_what_lets_light_through_costs_more():
+    glass = json.loads(json.dumps(CAN))
+    for node in glass["scene"]["nodes"]:
+        node["surface"]["alpha_mode"] = "blend"
+    output = {"output": {"size": [2048, 2048]}}
+
+    plain = estimate(can(**output["output"]), {}).seconds
+    assert estimate(RenderRequest.model_validate(glass | output), {}).seconds > 1.2 * plain
+
+
+def test_a_background_costs_its_picture_and_a_reading_of_it_for_each_sample():
+    behind = json.loads(json.dumps(CAN))
+    behind["scene"]["background"] = {"texture": {"technique": "perlin"}}
+
+    def seconds(size):
+        output = {"size": [size, size], "supersampling": 1}
+        with_it = RenderRequest.model_validate(behind | {"output": output})
+        return estimate(with_it, {}).seconds - estimate(can(**output), {}).seconds
+
+    assert seconds(64) > 0.1  # a texture and a program
+    assert 1 < seconds(4096) - seconds(64) < 10
