@@ -73,7 +73,7 @@ def test_every_choice_of_the_language_is_named() -> None:
     """But techniques: adding one touches no file that exists, and the service tells of them."""
     for name in (*get_args(Wrap), *get_args(Filter)):
         assert f"`{name}`" in section("What it can do"), name
-    for mesh in get_args(get_args(meshes.Mesh)[0]):
+    for mesh in get_args(meshes.Primitive):
         assert mesh.__name__.lower() in section("What it can do")
 
 

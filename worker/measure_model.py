@@ -4,6 +4,7 @@ from typing import Any, Final
 
 from worker.errors import UnusableAssetError
 from worker.geometry import mtl
+from worker.geometry.model_limits import WARNINGS_MAX
 from worker.geometry.model_pictures import measure
 from worker.geometry.models import ModelFormat, model_format, outline
 
@@ -16,7 +17,6 @@ MEDIA_TYPES: Final[dict[ModelFormat, str]] = {
     "ply": "model/ply",
     "stl": "model/stl",
 }
-_WARNINGS_MAX = 64
 _NAME_LENGTH_MAX = 256
 
 
@@ -72,7 +72,7 @@ def _model_facts(data: bytes, form: ModelFormat) -> dict[str, Any]:
         "lights": found.lights,
         "texels": sum(picture["width"] * picture["height"] for picture in pictures),
         "files": list(found.files),
-        "warnings": _names(found.warnings[:_WARNINGS_MAX]),
+        "warnings": _names(found.warnings[:WARNINGS_MAX]),
     }
 
 

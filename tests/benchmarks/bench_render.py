@@ -38,6 +38,8 @@ SLOTS = (
     "exponent",
 )
 """What is mapped, in this order."""
+RING = {"type": "torus", "radius": 0.8, "segments": 320, "rings": 160}
+GLASS = {"technique": "phong", "alpha_mode": "blend", "opacity": 0.5}
 
 
 def measure() -> list[dict[str, object]]:
@@ -50,6 +52,9 @@ def measure() -> list[dict[str, object]]:
         row("no map", frames_ms(maps=0), "ms"),
         row("one base map, 2 x 2 samples", frames_ms(maps=1, supersampling=2), "ms"),
         row("8 maps, anisotropic", frames_ms(maps=8), "ms", "wanted <= 90 for 12"),
+        row("500 boxes of 500 colours", median_ms(frame_of(boxes())), "ms"),
+        row("a million triangles", median_ms(frame_of([node(ball(1000, 501))])), "ms"),
+        row("102000 triangles of glass", median_ms(frame_of([node(RING, GLASS)])), "ms"),
         row("stock pyrender, one base map", stock, "ms", "8 bits, 4 samples, trilinear"),
         row("stock pyrender / ours", stock / base, "x"),
     ]
@@ -94,13 +99,18 @@ def median_ms(frame: Callable[[], object]) -> float:
 
 
 def our_frame(maps: int, filter_name: str, supersampling: int) -> Callable[[], object]:
-    # Imported late: a first draw is measured without it, and stock pyrender has its own context.
-    from worker.rendering.renderer import render  # noqa: PLC0415
-
     surface: dict[str, Any] = {"technique": "phong", "specular_weight": 0.3}
     for seed, name in enumerate(SLOTS[:maps]):
         texture = {"technique": "constant", "value": float(seed)}
         surface[name] = {"texture": texture, "filter": filter_name}
+    return frame_of([node(ball(), surface)], supersampling)
+
+
+def frame_of(nodes: list[dict[str, Any]], supersampling: int = 1) -> Callable[[], object]:
+    """Return a function that draws the nodes, from the request's scene to float pixels."""
+    # Imported late: a first draw is measured without it, and stock pyrender has its own context.
+    from worker.rendering.renderer import render  # noqa: PLC0415
+
     scene = Scene.model_validate(
         {
             "camera": {"type": "perspective", "pose": {"eye": [0.0, 0.0, 2.8]}},
@@ -108,7 +118,7 @@ def our_frame(maps: int, filter_name: str, supersampling: int) -> Callable[[], o
                 {"type": "ambient"},
                 {"type": "directional", "direction": [1.0, -1.0, -1.0]},
             ],
-            "nodes": [{"mesh": ball(), "surface": surface}],
+            "nodes": nodes,
         }
     )
     output = RenderOutput(size=[SIDE, SIDE], supersampling=supersampling)
@@ -127,8 +137,21 @@ def no_model(mesh: ModelMesh) -> Model:
     raise NotImplementedError
 
 
-def ball() -> dict[str, object]:
-    return {"type": "sphere", "segments": 100, "rings": 51}
+def ball(segments: int = 100, rings: int = 51) -> dict[str, object]:
+    return {"type": "sphere", "segments": segments, "rings": rings}
+
+
+def node(mesh: dict[str, object], surface: dict[str, Any] | None = None) -> dict[str, Any]:
+    return {"mesh": mesh, "surface": surface}
+
+
+def boxes() -> list[dict[str, Any]]:
+    box: dict[str, object] = {"type": "box", "width": 0.05, "height": 0.05, "depth": 0.05}
+    return [
+        node(box, {"technique": "phong", "diffuse_color": [index / 500, 0.5, 0.5]})
+        | {"transform": {"translation": [index % 25 / 12 - 1, index // 25 / 10 - 1, 0.0]}}
+        for index in range(500)
+    ]
 
 
 def first_draw_ms(maps: int) -> float:

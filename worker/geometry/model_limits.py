@@ -11,6 +11,8 @@ TRIANGLES_MAX: Final = 2**22
 """Four times what a large model has; as flat triangles 0.6 GB of vertices."""
 VERTICES_MAX: Final = 2**23
 """Vertices, and also points and pieces of lines."""
+WARNINGS_MAX: Final = 64
+"""Told of one model; who has read so many has understood."""
 FARTHEST: Final = 1e9
 """Largest coordinate: float32 squares of it are still numbers."""
 

@@ -2,12 +2,13 @@
 
 import hashlib
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
 from api_schemas.families import Meaning
 from api_schemas.textures.image import ImageSpec
+from worker.geometry.siblings import sibling
 from worker.images import image_io
 from worker.images.file_kinds import FILE_KINDS
 
@@ -15,22 +16,52 @@ _GREY_SPREAD = 0.1  # more than the noise of a JPEG, less than the colours of a 
 _GREY_SHARE = 0.99
 
 
-def picture_of(content: bytes, meaning: Meaning) -> ImageSpec:
-    """Name a picture by its hash, and say how its numbers are read.
+class PictureSet:
+    """The pictures among a model's files, by name; each is decoded once, if at all."""
 
-    Pictures of 8 and 16 bits are sRGB in the place of a colour, as uploads are; their alpha has no
-    meaning there.
+    def __init__(self, files: Mapping[str, bytes]) -> None:
+        self._files = files
+        self._hashes: dict[str, str] = {}
+        self._floats: dict[str, bool] = {}
+        self._alphas: dict[str, bool] = {}
+        self._greys: dict[str, bool] = {}
+        self.used: dict[str, bytes] = {}
 
-    Raises:
-        UnusableAssetError: It is no picture, or damaged.
-    """
-    is_srgb = meaning == "colour" and not _holds_floats(content)
-    return ImageSpec(
-        technique="image",
-        asset=hashlib.sha256(content).hexdigest(),
-        encoding="srgb" if is_srgb else "linear",
-        alpha="ignore" if meaning == "colour" else "use",
-    )
+    def spec(self, name: str, meaning: Meaning) -> ImageSpec:
+        """Name a picture by its hash, and say how its numbers are read.
+
+        Pictures of 8 and 16 bits are sRGB in the place of a colour, as uploads are; their alpha has
+        no meaning there.
+
+        Raises:
+            AssetMissingError: `asset_file_missing`.
+            UnusableAssetError: It is no picture, or damaged; or its name cannot be one.
+        """
+        content = sibling(self._files, name)
+        if name not in self._hashes:
+            self._hashes[name] = hashlib.sha256(content).hexdigest()
+        if meaning == "colour" and name not in self._floats:
+            self._floats[name] = _holds_floats(content)
+        self.used[self._hashes[name]] = content
+        is_srgb = meaning == "colour" and not self._floats[name]
+        return ImageSpec(
+            technique="image",
+            asset=self._hashes[name],
+            encoding="srgb" if is_srgb else "linear",
+            alpha="ignore" if meaning == "colour" else "use",
+        )
+
+    def has_alpha(self, name: str) -> bool:
+        """Whether a picture has coverage; raises as `spec`."""
+        if name not in self._alphas:
+            self._alphas[name] = measure(sibling(self._files, name))["has_alpha"]
+        return self._alphas[name]
+
+    def is_grey(self, name: str) -> bool:
+        """Whether a picture is nearly grey nearly everywhere; raises as `spec`."""
+        if name not in self._greys:
+            self._greys[name] = _is_grey(sibling(self._files, name))
+        return self._greys[name]
 
 
 def measure(content: bytes) -> image_io.ImageFacts:
@@ -43,13 +74,7 @@ def measure(content: bytes) -> image_io.ImageFacts:
         return image_io.measure(path)
 
 
-def has_alpha(content: bytes) -> bool:
-    """Whether a picture has coverage."""
-    return measure(content)["has_alpha"]
-
-
-def is_grey(content: bytes) -> bool:
-    """Whether red, green and blue are nearly equal nearly everywhere, or there is one of them."""
+def _is_grey(content: bytes) -> bool:
     with _stored(content) as path:
         pixels = image_io.read(path, "linear", "data").pixels
     if pixels.shape[2] < 3:

@@ -6,6 +6,7 @@ Source: Wavefront Technologies, Advanced Visualizer, appendix B2 (MTL), version 
 """
 
 import math
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
@@ -15,6 +16,7 @@ from worker.geometry.siblings import NAME_LENGTH_MAX, decoded, sibling, sibling_
 BYTES_MAX = 1 << 22
 """Of a library: some ten thousand materials."""
 
+_NEWMTL = re.compile(rb"^[ \t]*newmtl\s", re.MULTILINE)
 _MAPS = {
     "map_kd": "map_kd",
     "map_ka": "map_ka",
@@ -87,7 +89,7 @@ class Material:
 
 def is_mtl(data: bytes) -> bool:
     """Whether a text has a statement newmtl."""
-    return any(line.split(None, 1)[:1] == [b"newmtl"] for line in data.splitlines())
+    return _NEWMTL.search(data) is not None
 
 
 def library(names: tuple[str, ...], files: Mapping[str, bytes]) -> dict[str, Material]:

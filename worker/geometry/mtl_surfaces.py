@@ -14,12 +14,11 @@ from typing import Any, Literal
 from api_schemas.base import FLOAT32_MAX, LENGTH_MAX
 from api_schemas.maps import ColorMap, NormalMap, NumberMap, TextureTransform
 from api_schemas.surfaces.phong import PhongSpec
-from api_schemas.textures.image import ImageSpec
 from api_schemas.textures.normal_from_height import NormalFromHeightSpec
 from worker.geometry.model import NamedSurface
-from worker.geometry.model_pictures import has_alpha, is_grey, picture_of
+from worker.geometry.model_pictures import PictureSet
 from worker.geometry.mtl import Material, TextureStatement
-from worker.geometry.siblings import shown, sibling
+from worker.geometry.siblings import shown
 
 BUMP_DEPTH = 0.02
 """Height of white in tiles where -bm is 1: the format gives no unit."""
@@ -43,7 +42,7 @@ class Surfaces:
     """What a model's materials became, their pictures, and what is not as it was asked for."""
 
     surfaces: list[NamedSurface] = field(default_factory=list)
-    pictures: dict[str, bytes] = field(default_factory=dict)
+    pictures: Mapping[str, bytes] = field(default_factory=dict)
     warnings: list[str] = field(default_factory=list)
 
 
@@ -56,7 +55,8 @@ def surfaces_of(
         AssetMissingError: `asset_file_missing`: a picture that would be drawn is not in the set.
         UnusableAssetError: Such a picture is none, or its name cannot be one.
     """
-    made = Surfaces()
+    pictures = PictureSet(files)
+    made = Surfaces(pictures=pictures.used)
     for name in names:
         material = library.get(name)
         if material is None:
@@ -64,7 +64,7 @@ def surfaces_of(
                 made.warnings.append(f"material {shown(name)} is in no library: it is plain grey")
             made.surfaces.append(NamedSurface(name, PhongSpec(technique="phong")))
         else:
-            surface = _Translation(material, files, made).surface()
+            surface = _Translation(material, pictures, made).surface()
             made.surfaces.append(NamedSurface(name, surface))
     return made
 
@@ -72,9 +72,9 @@ def surfaces_of(
 class _Translation:
     """One material on its way to a surface."""
 
-    def __init__(self, material: Material, files: Mapping[str, bytes], made: Surfaces) -> None:
+    def __init__(self, material: Material, pictures: PictureSet, made: Surfaces) -> None:
         self._material = material
-        self._files = files
+        self._pictures = pictures
         self._made = made
 
     def surface(self) -> PhongSpec:
@@ -124,7 +124,7 @@ class _Translation:
             colour = None
         base, gain = self._base_and_gain(texture)
         return ColorMap(
-            texture=self._picture(texture, "colour"),
+            texture=self._pictures.spec(texture.file, "colour"),
             tint=colour or [1.0, 1.0, 1.0],
             scale=gain,
             bias=base,
@@ -165,12 +165,11 @@ class _Translation:
     ) -> NumberMap:
         asked = texture.options.get("-imfchan", ("",))[:1]
         channel = _CHANNELS.get(asked[0] if asked else "")
-        content = sibling(self._files, texture.file)
-        if channel is None and prefer_alpha and has_alpha(content):
+        if channel is None and prefer_alpha and self._pictures.has_alpha(texture.file):
             channel = "a"
         base, gain = self._base_and_gain(texture)
         return NumberMap(
-            texture=self._picture(texture, "data"),
+            texture=self._pictures.spec(texture.file, "data"),
             channel=channel or "r",
             scale=gain * factor,
             bias=base * factor,
@@ -180,13 +179,15 @@ class _Translation:
     def _normal(self) -> NormalMap | None:
         texture = self._material.textures.get("norm")
         if texture is not None:
-            return NormalMap(texture=self._picture(texture, "data"), **self._place(texture))
+            return NormalMap(
+                texture=self._pictures.spec(texture.file, "data"), **self._place(texture)
+            )
         texture = self._material.textures.get("bump")
         if texture is None:
             return None
         strength = (texture.numbers("-bm") or (1.0,))[0]
-        picture = self._picture(texture, "data")
-        if not is_grey(sibling(self._files, texture.file)):
+        picture = self._pictures.spec(texture.file, "data")
+        if not self._pictures.is_grey(texture.file):
             return NormalMap(
                 texture=picture, strength=_held(strength, FLOAT32_MAX), **self._place(texture)
             )
@@ -194,12 +195,6 @@ class _Translation:
             technique="normal_from_height", height=picture, depth=_held(strength * BUMP_DEPTH, 16.0)
         )
         return NormalMap(texture=relief, **self._place(texture))
-
-    def _picture(self, texture: TextureStatement, meaning: Literal["colour", "data"]) -> ImageSpec:
-        content = sibling(self._files, texture.file)
-        picture = picture_of(content, meaning)
-        self._made.pictures[picture.asset] = content
-        return picture
 
     def _base_and_gain(self, texture: TextureStatement) -> tuple[float, float]:
         numbers = texture.numbers("-mm")

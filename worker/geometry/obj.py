@@ -21,6 +21,7 @@ from worker.geometry.model import Model, Part
 from worker.geometry.model_limits import (
     TRIANGLES_MAX,
     VERTICES_MAX,
+    WARNINGS_MAX,
     check_positions,
     check_size,
     check_uv,
@@ -33,6 +34,8 @@ from worker.geometry.vertices import number_rows, used
 
 GROUPS_MAX = 500
 """Parts of one file: each costs about a millisecond to draw. Beyond, groups are joined."""
+LIBRARIES_MAX = 256
+"""As many files as a request may give beside a model."""
 MATERIALS_MAX = 4096
 """Parts when groups are joined."""
 
@@ -82,7 +85,7 @@ def read(data: bytes, files: Mapping[str, bytes]) -> Model:
         cameras=(),
         lights=(),
         pictures=made.pictures,
-        warnings=(*parsed.warnings, *made.warnings),
+        warnings=(*parsed.warnings, *made.warnings)[:WARNINGS_MAX],
     )
 
 
@@ -94,6 +97,7 @@ def outline(data: bytes) -> Outline:
     """
     parsed = parse(data)
     libraries = [name for line in parsed.libraries for name in mtl.library_names(line)]
+    check_size(len(libraries), LIBRARIES_MAX, "material libraries")
     return outline_of(
         [piece.mesh for piece in parsed.pieces],
         has_normals=parsed.has_normals,

@@ -14,7 +14,7 @@ import numpy as np
 from api_schemas.maps import ColorMap
 from api_schemas.surfaces.phong import PhongSpec
 from worker.geometry.model import Model, NamedSurface, Part
-from worker.geometry.model_pictures import picture_of
+from worker.geometry.model_pictures import PictureSet
 from worker.geometry.outline import Outline, outline_of
 from worker.geometry.ply_body import read_body
 from worker.geometry.ply_header import Header, read_header
@@ -65,9 +65,9 @@ def _textured(
     header: Header, files: Mapping[str, bytes]
 ) -> tuple[NamedSurface, dict[str, bytes]] | None:
     """Make the surface that wears the picture of the comment, if it is in the set."""
-    content = files.get(header.texture)
-    if content is None:
+    if header.texture not in files:
         return None
-    picture = picture_of(content, "colour")
+    pictures = PictureSet(files)
+    picture = pictures.spec(header.texture, "colour")
     surface = PhongSpec(technique="phong", diffuse_color=ColorMap(texture=picture))
-    return NamedSurface("", surface), {picture.asset: content}
+    return NamedSurface("", surface), pictures.used

@@ -20,15 +20,17 @@ from worker.geometry.vertices import flat_normals
 from worker.images.colour import linear_from_srgb
 
 _HEADER = 84
+_TRAILER_MAX = 512  # some writers append a line end or a few words
 _RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("spare", "<u2")])  # 50 bytes
 
 
 def is_binary_stl(data: bytes) -> bool:
-    """Whether a file is exactly as long as the number of triangles in it says."""
-    return (
-        len(data) >= _HEADER
-        and len(data) == _HEADER + int.from_bytes(data[80:84], "little") * _RECORD.itemsize
-    )
+    """Whether a file is as long as the number of triangles in it says, or little longer."""
+    if len(data) < _HEADER:
+        return False
+    count = _binary_count(data)
+    beyond = len(data) - _HEADER - count * _RECORD.itemsize
+    return beyond == 0 or (0 < beyond <= _TRAILER_MAX and count > 0)
 
 
 def is_text_stl(data: bytes) -> bool:
@@ -47,8 +49,8 @@ def read(data: bytes) -> Model:
     """
     colours = None
     if is_binary_stl(data):
-        check_size((len(data) - _HEADER) // _RECORD.itemsize, TRIANGLES_MAX, "triangles")
-        records = np.frombuffer(data, _RECORD, offset=_HEADER)
+        check_size(_binary_count(data), TRIANGLES_MAX, "triangles")
+        records = np.frombuffer(data, _RECORD, _binary_count(data), offset=_HEADER)
         corners = records["corners"].astype(np.float64)
         colours = _colours(data[:80], records["spare"])
     else:
@@ -82,6 +84,10 @@ def outline(data: bytes) -> Outline:
         UnusableAssetError: As `read`.
     """
     return outline_of([read(data).parts[0].mesh], has_normals=False)
+
+
+def _binary_count(data: bytes) -> int:
+    return int.from_bytes(data[80:84], "little")
 
 
 def _corners_in_text(data: bytes) -> NDArray[np.float64]:

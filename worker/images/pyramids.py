@@ -1,7 +1,61 @@
 """Mip chains: a picture at half, a quarter, an eighth ... of its size, the mean kept on each."""
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
+
+
+@dataclass(frozen=True, slots=True)
+class Cut:
+    """Where holes are: what is below `cutoff` of scale * texel + bias, in one of the channels."""
+
+    channel: int
+    scale: float
+    bias: float
+    cutoff: float
+
+
+def keep_coverage(levels: list[NDArray[np.float32]], cut: Cut) -> None:
+    """Let each smaller level have as large a share of holes as the first, as nearly as it can.
+
+    Means of thin leaves fall below the cutoff everywhere, and of thin gaps nowhere. So the opacity
+    of each level is multiplied by one number, by which the right count of texels reaches it
+    (Castano, 2010).
+
+    Args:
+        levels: From `mip_chain`; all but the first are changed.
+        cut: Which numbers are opacity.
+    """
+    channels = levels[0].shape[2]
+    channel = 0 if channels == 1 and cut.channel < 3 else cut.channel  # a grey is red, green, blue
+    if channel >= channels or not cut.scale or not cut.cutoff:
+        return
+    first = _opacity(levels[0], channel, cut)
+    share = np.count_nonzero(first >= cut.cutoff) / first.size
+    for level in levels[1:]:
+        opacity = np.sort(_opacity(level, channel, cut), axis=None)
+        holes = _possible(opacity, opacity.size - round(share * opacity.size))
+        # Factors between these make so many holes; the one nearest to 1 changes least.
+        most = cut.cutoff / opacity[holes - 1] if holes and opacity[holes - 1] > 0 else np.inf
+        least = cut.cutoff / opacity[holes] if holes < opacity.size and opacity[holes] > 0 else 0.0
+        factor = max(min(1.0, most * (1 - 1e-6)), least * (1 + 1e-6))
+        level[..., channel] = factor * level[..., channel] + (factor - 1) * cut.bias / cut.scale
+
+
+def _possible(ordered: NDArray[np.float64], holes: int) -> int:
+    """Return the nearest number of holes that leaves equal texels together."""
+    if holes == ordered.size:
+        return holes
+    fewer = np.searchsorted(ordered, ordered[holes], "left")
+    more = np.searchsorted(ordered, ordered[holes], "right")
+    return int(fewer if holes - fewer <= more - holes else more)
+
+
+def _opacity(level: NDArray[np.float32], channel: int, cut: Cut) -> NDArray[np.float64]:
+    with np.errstate(over="ignore", invalid="ignore"):
+        opacity = cut.scale * level[..., channel].astype(np.float64) + cut.bias
+    return np.clip(np.nan_to_num(opacity, nan=0.0), 0.0, 1.0)
 
 
 def mip_chain(pixels: NDArray[np.float32]) -> list[NDArray[np.float32]]:

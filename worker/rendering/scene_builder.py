@@ -20,7 +20,7 @@ from worker.geometry.model import Model, Part
 from worker.geometry.tangents import with_tangents
 from worker.geometry.transforms import Matrix, parent_from_node
 from worker.images.image import Image
-from worker.images.pyramids import mip_chain
+from worker.images.pyramids import Cut, keep_coverage, mip_chain
 from worker.rendering.cache import ByteCache
 from worker.rendering.model_changes import seen_parts
 from worker.rendering.pyrender_scene import Background, Drawable, View
@@ -168,9 +168,12 @@ class SceneBuilder:
         return self._meshes.get((item.key, uv_set), make)
 
     def _shading(self, surface: SurfaceSpec, maker: TextureMaker) -> Shading:
-        def texture_of(spec: TextureSpec, meaning: Meaning, *, levels: bool) -> Texture:
-            key = (spec.model_dump_json(), meaning, levels)
-            return self._textures.get(key, lambda: _upload(maker(spec, meaning), levels))
+        def texture_of(
+            spec: TextureSpec, meaning: Meaning, *, levels: bool, cut: Cut | None = None
+        ) -> Texture:
+            cut = cut if levels else None
+            key = (spec.model_dump_json(), meaning, levels, cut)
+            return self._textures.get(key, lambda: _upload(maker(spec, meaning), levels, cut))
 
         return shade(surface, texture_of)
 
@@ -209,7 +212,9 @@ def _mesh_of(part: Part) -> Mesh:
     return part.mesh
 
 
-def _upload(image: Image, levels: bool) -> tuple[Texture, int]:
+def _upload(image: Image, levels: bool, cut: Cut | None) -> tuple[Texture, int]:
     chain = mip_chain(image.pixels) if levels else [image.pixels]
+    if cut is not None:
+        keep_coverage(chain, cut)
     texture = Texture.upload(chain, image.meaning)
     return texture, texture.size_bytes

@@ -18,6 +18,7 @@ from api_schemas.families import AlphaMode, Meaning, SurfaceSpec, TextureSpec
 from api_schemas.language import FAMILIES
 from api_schemas.maps import ColorMap, Filter, Map, NormalMap, NumberMap, TextureTransform
 from worker.errors import RenderError
+from worker.images.pyramids import Cut
 from worker.rendering.chunks import chunk
 from worker.rendering.samplers import Sampling
 from worker.rendering.textures import Texture, TextureFormat
@@ -32,8 +33,13 @@ _MEANINGS: dict[str, Meaning] = {"vec3": "colour", "float": "data"}
 class TextureSource(Protocol):
     """Where uploaded textures come from."""
 
-    def __call__(self, spec: TextureSpec, meaning: Meaning, *, levels: bool) -> Texture:
-        """Return the texture of a spec, with its mip levels if asked for."""
+    def __call__(
+        self, spec: TextureSpec, meaning: Meaning, *, levels: bool, cut: Cut | None = None
+    ) -> Texture:
+        """Return the texture of a spec, with its mip levels if asked for.
+
+        With a cut, the levels have as many holes as the texture.
+        """
 
 
 @dataclass(frozen=True, slots=True)
@@ -207,7 +213,9 @@ class _Plan:
         self.lookups: list[_Lookup] = []
         self.pictures: list[Picture] = []
 
-    def parameter(self, surface: SurfaceSpec, name: str, kind: str) -> Parameter:
+    def parameter(
+        self, surface: SurfaceSpec, name: str, kind: str, cut: Cut | None = None
+    ) -> Parameter:
         value = getattr(surface, name)
         if not isinstance(value, ColorMap | NumberMap):
             self._uniforms[name + "_value"] = _plain(surface, name, kind, value)
@@ -218,15 +226,19 @@ class _Plan:
             self._uniforms[name + "_channel"] = "rgba".index(value.channel)
         else:
             self._uniforms[name + "_scale"] = value.scale * np.array(value.tint)
-        return Parameter(name, kind, self._lookup(value, _MEANINGS[kind]))
+        return Parameter(name, kind, self._lookup(value, _MEANINGS[kind], cut))
 
     def opacity(self, surface: SurfaceSpec) -> Parameter | None:
         """Lay out the opacity, unless it is ignored."""
         if surface.alpha_mode == "opaque":
             return None
+        cut = None
         if surface.alpha_mode == "mask":
             self._uniforms["alpha_cutoff"] = surface.alpha_cutoff
-        return self.parameter(surface, "opacity", "float")
+            if isinstance(mapped := surface.opacity, NumberMap):
+                channel = "rgba".index(mapped.channel)
+                cut = Cut(channel, mapped.scale, mapped.bias, surface.alpha_cutoff)
+        return self.parameter(surface, "opacity", "float", cut)
 
     def normal(self, mapped: NormalMap) -> int:
         """Lay out a normal map; return its lookup."""
@@ -234,8 +246,13 @@ class _Plan:
         self._uniforms["normal_axes"] = _normal_axes(mapped).ravel()
         return self._lookup(mapped, "data")
 
-    def _lookup(self, mapped: ColorMap | NumberMap | NormalMap, meaning: Meaning) -> int:
-        picture = self._picture(mapped, mapped.texture, meaning)
+    def _lookup(
+        self,
+        mapped: ColorMap | NumberMap | NormalMap,
+        meaning: Meaning,
+        cut: Cut | None = None,
+    ) -> int:
+        picture = self._picture(mapped, mapped.texture, meaning, cut)
         technique, *choices = mapped.coordinates.model_dump().values()
         layout = LookupLayout(technique, tuple(choices), mapped.filter, picture)
         key = json.dumps(
@@ -246,11 +263,11 @@ class _Plan:
             self.lookups.append(_Lookup(layout, mapped.transform))
         return self._found[key]
 
-    def _picture(self, mapped: Map, spec: TextureSpec, meaning: Meaning) -> int:
+    def _picture(self, mapped: Map, spec: TextureSpec, meaning: Meaning, cut: Cut | None) -> int:
         u, v = mapped.wrap
         sampling = Sampling.of((u, v), mapped.filter)
         border = tuple(mapped.border_color) if "border" in (u, v) else (0.0,) * 4
-        texture = self._texture_of(spec, meaning, levels=sampling.levels)
+        texture = self._texture_of(spec, meaning, levels=sampling.levels, cut=cut)
         picture = Picture(texture, sampling, border)
         if picture not in self.pictures:
             self.pictures.append(picture)

@@ -32,6 +32,7 @@ TRIANGLE = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
         (b"OFF\n3 1 0\n0 0 0", None),
         (b"\0" * 84, "stl"),
         (b"\0" * 83, None),
+        (b"\0\n" + TRIANGLE, None),
         (b"PK\x03\x04" + bytes(500), None),
         (b"v 1 2 3\n" * 5, None),
     ],

@@ -13,7 +13,7 @@ from api_schemas.textures.image import ImageSpec
 from api_schemas.textures.normal_from_height import NormalFromHeightSpec
 from tests.worker.geometry.refusals import outcome
 from worker.errors import AssetMissingError, UnusableAssetError
-from worker.geometry import mtl
+from worker.geometry import model_pictures, mtl
 from worker.geometry.mtl_surfaces import BUMP_DEPTH, Surfaces, surfaces_of
 
 
@@ -227,6 +227,19 @@ def test_a_picture_that_is_none_is_refused() -> None:
 
     with pytest.raises(UnusableAssetError):
         surfaces_of(("m",), library, {"x.png": b"Dear technical artist"})
+
+
+def test_a_picture_that_many_materials_wear_is_decoded_once(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    decoded = []
+    measure = model_pictures.measure
+    monkeypatch.setattr(model_pictures, "measure", lambda c: decoded.append(c) or measure(c))
+    library = {str(i): mtl.parse(b"newmtl m\nmap_d a.png")[0] for i in range(50)}
+
+    surfaces_of(tuple(library), library, FILES)
+
+    assert decoded == [RGBA]
 
 
 def test_pictures_that_are_drawn_are_needed() -> None:

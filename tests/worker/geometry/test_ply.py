@@ -148,9 +148,11 @@ def test_colours_of_faces_part_the_vertices() -> None:
 def test_normals_of_the_file_are_scaled_and_zeros_are_computed() -> None:
     properties = [*XYZ, ("float", "nx"), ("float", "ny"), ("float", "nz")]
     rows = [(*corner, 3, 0, 4) for corner in SQUARE[:3]] + [(*SQUARE[3], 0, 0, 0)]
-    found = mesh(ply("ascii", ("vertex", properties, rows), ("face", FACES, [((0, 1, 2, 3),)])))
+    faces = [((0, 3, 2, 1),)]
+    found = mesh(ply("ascii", ("vertex", properties, rows), ("face", FACES, faces)))
+    order = [found.positions.tolist().index(list(corner)) for corner in SQUARE]
 
-    np.testing.assert_allclose(found.normals, [[0.6, 0, 0.8]] * 3 + [[0, 0, 1]])
+    np.testing.assert_allclose(found.normals[order], [[0.6, 0, 0.8]] * 3 + [[0, 0, -1]])
 
 
 @pytest.mark.parametrize("form", FORMATS)

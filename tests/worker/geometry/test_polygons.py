@@ -30,7 +30,7 @@ def assert_tiles(points: list[tuple[float, float, float]]) -> None:
     areas = [area(flat[row]) for row in triangles]
 
     assert len(triangles) == len(points) - 2
-    assert min(areas) >= 0
+    assert min(areas) >= -1e-12
     assert sum(areas) == pytest.approx(area(flat), rel=1e-12)
 
 
@@ -49,6 +49,32 @@ def test_a_square_with_a_hole_bridged_by_two_equal_edges_keeps_the_hole() -> Non
     inner = [(1.0, 1.0, 0.0), (1.0, 3.0, 0.0), (3.0, 3.0, 0.0), (3.0, 1.0, 0.0)]
 
     assert_tiles([*outer, outer[0], *inner, inner[0]])
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_holes_bridged_from_one_to_the_next_stay_open(seed: int) -> None:
+    """A plate with a row of holes as one outline, which passes each bridge twice."""
+    random = np.random.default_rng(seed)
+    holes = []
+    for number in range(random.integers(1, 6)):
+        angles = (
+            random.random() * 6 - 2 * np.pi * np.arange(sides := random.integers(3, 10)) / sides
+        )
+        ring = [(3 * number + 1.5 + math.cos(a), 2 + math.sin(a), 0.0) for a in angles]
+        leftmost = ring.index(min(ring))
+        holes.append(ring[leftmost:] + ring[:leftmost])
+
+    def round_holes(number: int) -> list[tuple[float, float, float]]:
+        path = []
+        for corner in holes[number]:
+            path.append(corner)
+            if corner == max(holes[number]) and number + 1 < len(holes):
+                path += [*round_holes(number + 1), corner]
+        return [*path, holes[number][0]]
+
+    width = 3.0 * len(holes)
+    plate = [(0.0, 0.0, 0.0), (width, 0.0, 0.0), (width, 4.0, 0.0), (0.0, 4.0, 0.0)]
+    assert_tiles([*plate, (0.0, 2.0, 0.0), *round_holes(0), (0.0, 2.0, 0.0)])
 
 
 @given(st.lists(st.floats(0.2, 3.0), min_size=4, max_size=40))

@@ -41,6 +41,10 @@ def test_triangles_are_flat_and_share_nothing(write: object) -> None:
     assert part.mesh.colors is None
 
 
+def test_a_few_bytes_after_the_triangles_are_passed_over() -> None:
+    assert len(read_model(binary(CORNERS) + b"\r\n", {}).parts[0].mesh.triangles) == 2
+
+
 def test_words_of_a_text_may_be_in_capitals() -> None:
     assert len(stl.read(in_text(CORNERS).upper()).parts[0].mesh.triangles) == 2
 

@@ -1,18 +1,21 @@
 import errno
+import itertools
 import resource
 import time
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import PIL.Image
 import pytest
 
 from api_schemas.families import Meaning
-from api_schemas.output import ExrType
+from api_schemas.output import ExrType, PngBits
 from tests.worker.images.exr_bytes import parse_exr
 from worker.images.image import Image
-from worker.images.image_io import encode_exr, encode_png, measure, read
+from worker.images.image_io import encode_exr, encode_png, measure, read, write_png
+from worker.images.image_io import write_exr as write_exr_bands
 
 
 def write_exr(path: Path, image: Image, pixel_type: ExrType = "half") -> Path:
@@ -163,6 +166,56 @@ def test_sixteen_bit_data_comes_back_within_half_a_code(tmp_path: Path) -> None:
 
     back = read(tmp_path / "data", "linear", "data").pixels
     assert np.abs(back - image.pixels).max() <= 0.5 / 65535 + 1e-7
+
+
+@pytest.mark.parametrize("cuts", [(0, 37), (0, 1, 17, 18, 37)])
+@pytest.mark.parametrize("bits", [8, 16])
+def test_bands_of_a_png_make_the_same_bytes(
+    tmp_path: Path, cuts: tuple[int, ...], bits: PngBits
+) -> None:
+    image = noise(4)
+    bands = [Image(image.pixels[a:b], "colour") for a, b in itertools.pairwise(cuts)]
+    how: Any = {"bits": bits, "transfer": "srgb", "exposure": 0.5, "tone_curve": "aces"}
+
+    encode_png(image, tmp_path / "whole", **how)
+    write_png(bands, 37, tmp_path / "cut", **how)
+
+    assert (tmp_path / "cut").read_bytes() == (tmp_path / "whole").read_bytes()
+
+
+@pytest.mark.parametrize("cuts", [(0, 37), (0, 1, 17, 18, 37)])
+@pytest.mark.parametrize("pixel_type", ["half", "float"])
+def test_bands_of_an_exr_make_the_same_bytes(
+    tmp_path: Path, cuts: tuple[int, ...], pixel_type: ExrType
+) -> None:
+    layers = {"": noise(4), "N": noise(3, "data")}
+    bands = [
+        {name: Image(image.pixels[a:b], image.meaning) for name, image in layers.items()}
+        for a, b in itertools.pairwise(cuts)
+    ]
+    how: Any = {"pixel_type": pixel_type, "digest": "ab12", "version": "1.2.3"}
+
+    encode_exr(layers, tmp_path / "whole", **how)
+    write_exr_bands(bands, 37, tmp_path / "cut", **how)
+
+    assert (tmp_path / "cut").read_bytes() == (tmp_path / "whole").read_bytes()
+
+
+def test_a_picture_that_cannot_be_finished_is_told_as_what_stopped_it(tmp_path: Path) -> None:
+    def bands() -> Iterator[Image]:
+        yield noise(4)
+        raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        write_png(
+            bands(),
+            74,
+            tmp_path / "half",
+            bits=8,
+            transfer="srgb",
+            exposure=0.0,
+            tone_curve="none",
+        )
 
 
 def test_what_is_not_finite_in_a_png_is_black_or_white(tmp_path: Path) -> None:

@@ -4,7 +4,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from worker.images.pyramids import mip_chain
+from worker.images.pyramids import Cut, keep_coverage, mip_chain
 
 
 def test_a_256_square_has_nine_levels_of_87381_texels() -> None:  # T41
@@ -73,3 +73,64 @@ def test_the_first_level_is_the_picture_itself_untouched() -> None:
 
     assert levels[0] is pixels
     assert np.array_equal(pixels, before)
+
+
+@pytest.mark.parametrize("share", [0.0, 0.01, 0.3, 0.7, 0.99, 1.0])
+@pytest.mark.parametrize(("scale", "bias"), [(1.0, 0.0), (-1.0, 1.0), (0.5, 0.25)])
+def test_holes_keep_their_share_on_every_level(share: float, scale: float, bias: float) -> None:
+    opacity = np.where(np.random.default_rng(8).random((128, 96)) < share, 0.75, 0.25)
+    stored = np.zeros((128, 96, 3), np.float32)
+    stored[..., 1] = (opacity - bias) / scale
+    levels = mip_chain(stored)
+    before = [level.copy() for level in levels]
+
+    keep_coverage(levels, Cut(channel=1, scale=scale, bias=bias, cutoff=0.6))
+
+    exact = np.mean(levels[0][..., 1] * scale + bias >= 0.6)
+    for level, old in zip(levels[:5], before, strict=False):
+        shown = np.mean(level[..., 1] * scale + bias >= 0.6)
+        # Equal texels go together: half of the largest group of them is the most one can be wrong.
+        group = np.unique(old[..., 1], return_counts=True)[1].max() / old[..., 1].size
+        assert abs(shown - exact) <= group / 2 + 1e-9
+        np.testing.assert_array_equal(level[..., [0, 2]], old[..., [0, 2]])
+    np.testing.assert_array_equal(levels[0], before[0])
+
+
+def test_a_level_with_the_right_holes_is_left_alone() -> None:
+    halves = np.repeat([[0.0], [1.0]], 32, axis=0).astype(np.float32)
+    levels = mip_chain(np.repeat(halves, 64, axis=1)[..., None])
+
+    before = [level.copy() for level in levels]
+    keep_coverage(levels, Cut(channel=0, scale=1.0, bias=0.0, cutoff=0.5))
+
+    for level, old in zip(levels[:-1], before[:-1], strict=True):
+        np.testing.assert_array_equal(level, old)
+
+
+@pytest.mark.parametrize(
+    "cut",
+    [
+        Cut(3, 1.0, 0.0, 0.5),
+        Cut(0, 0.0, 1.0, 0.5),
+        Cut(0, 1.0, 0.0, 0.0),
+    ],
+    ids=["no such channel", "no scale", "nothing is a hole"],
+)
+def test_where_no_texel_decides_nothing_changes(cut: Cut) -> None:
+    levels = mip_chain(np.random.default_rng(1).random((8, 8, 1), np.float32))
+    before = [level.copy() for level in levels]
+
+    keep_coverage(levels, cut)
+
+    for level, old in zip(levels, before, strict=True):
+        np.testing.assert_array_equal(level, old)
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf, 3e38, 0.0])
+def test_any_number_may_be_opacity(value: float) -> None:
+    pixels = np.full((8, 8, 1), value, np.float32)
+    with np.errstate(invalid="ignore", over="ignore"):
+        levels = mip_chain(pixels)
+        keep_coverage(levels, Cut(0, 1.0, 0.0, 0.5))
+
+    assert all(level.dtype == np.float32 for level in levels)

@@ -178,6 +178,24 @@ def test_through_a_hole_one_sees_what_is_behind(studio: Studio) -> None:
     np.testing.assert_array_equal(drawn, expected)
 
 
+@pytest.mark.parametrize("share", [0.15, 0.5, 0.85])
+@pytest.mark.parametrize("how", [{}, {"scale": -1.0, "bias": 1.0}])
+def test_leaves_keep_their_share_where_they_are_small(
+    studio: Studio, share: float, how: dict[str, Any]
+) -> None:
+    # Leaves of one texel, seen so small that each pixel holds eight by eight of them.
+    leaves = np.random.default_rng(5).random((512, 512)) < share
+    stored = studio.texture(1.0 - leaves if how else leaves)
+    surface = glass([1.0, 1.0, 1.0], {"texture": stored} | how, alpha_mode="mask")
+
+    drawn = studio.poster(surface, (64, 64))
+
+    # Each level has the right share; between two levels, and between texels, what is read is nearer
+    # to the mean. Without the care for it the smaller share would be gone altogether.
+    assert drawn[..., 3].mean() == pytest.approx(leaves.mean(), abs=0.12)
+    assert 0.03 < drawn[..., 3].mean() < 0.97
+
+
 @pytest.mark.parametrize(
     ("value", "alpha"),
     [(-3.0, 0.0), (0.0, 0.0), (7.0, 1.0), (np.inf, 1.0), (-np.inf, 0.0), (np.nan, 0.0)],

@@ -219,6 +219,39 @@ def test_with_energy_compensation_nothing_is_lost(
     np.testing.assert_allclose(seen, 1, atol=5e-3)
 
 
+@pytest.mark.parametrize(("roughness", "cosine", "a", "b"), X17)
+@pytest.mark.parametrize("metallic", [0.0, 1.0])
+def test_energy_compensation_is_turquins(
+    studio: Studio, metallic: float, roughness: float, cosine: float, a: float, b: float
+) -> None:
+    # Black glass with F0 = ((5 - 1) / (5 + 1))^2, or a metal of it
+    f0 = 4 / 9
+    surface = {
+        "technique": "metallic_roughness",
+        "base_color": [metallic * f0] * 3,
+        "metallic": metallic,
+        "ior": 5.0,
+        "roughness": roughness,
+        "energy_compensation": True,
+    }
+
+    seen = slanted(studio, surface, cosine, [WHITE_SKY])
+
+    expected = (f0 * a + b) * (1 + f0 * (1 - a - b) / (a + b))
+    np.testing.assert_allclose(seen, expected, atol=2e-3)
+
+
+@pytest.mark.parametrize("cosine", [0.9, 0.5, 0.3, 0.1])
+def test_a_mirror_shows_fresnels_term_itself(studio: Studio, cosine: float) -> None:
+    surface = {**MIRROR, "base_color": [0.0, 0.5, 1.0], "roughness": 0.0}
+
+    seen = slanted(studio, surface, cosine, [WHITE_SKY])
+
+    # Between the table's columns, 1/63 apart, (1 - x)^5 bends by 20 / 8 / 63^2 at most.
+    expected = np.array([0, 0.5, 1]) + np.array([1, 0.5, 0]) * (1 - cosine) ** 5
+    np.testing.assert_allclose(seen, expected, atol=7e-4)
+
+
 @pytest.mark.parametrize("compensation", [False, True])
 @pytest.mark.parametrize("varnish", [0.0, 1.0])
 def test_nothing_shows_more_than_the_furnace_has(

@@ -7,8 +7,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from api_schemas import meshes
 from api_schemas.coordinates.uv import UvSpec
 from tests.worker.rendering.studio import Pixels, Studio
+from worker.geometry import primitives
 from worker.geometry.mesh import Mesh
 
 pytestmark = pytest.mark.gl
@@ -192,3 +194,17 @@ def test_points_without_normals_show_their_colour_and_what_they_emit(studio: Stu
     pixels = drawn(studio, points_that_face([0.0, 0.0, 0.0]), surface, lights=[FRONT])
 
     np.testing.assert_array_equal(pixels[..., :3], np.full((16, 16, 3), [0.75, 0.25, 1.125]))
+
+
+def test_a_mesh_is_counted_as_what_is_held_of_it(studio: Studio) -> None:
+    from worker.rendering.vertex_arrays import VertexArray  # noqa: PLC0415  needs OpenGL
+
+    studio.poster({"technique": "unlit"})  # opens the context
+    ball = primitives.build(meshes.Sphere(type="sphere", segments=40, rings=20))
+
+    uploaded = VertexArray.upload(ball)
+
+    # In float32: position, normal and uv in OpenGL, positions here; triangles in both.
+    vertices, triangles = len(ball.positions), len(ball.triangles)
+    assert uploaded.size_bytes == vertices * 4 * (3 + 3 + 2 + 3) + 2 * triangles * 12
+    uploaded.delete()

@@ -197,6 +197,14 @@ def test_a_picture_may_lie_in_a_view_in_a_data_uri_or_beside_and_is_one_picture(
     assert [emission.texture.asset for emission in emissions] == [digest] * 3
 
 
+def test_a_picture_in_a_view_says_what_it_is() -> None:
+    builder = Builder()
+    builder.add("images", {"bufferView": builder.view(png())})
+
+    with pytest.raises(UnusableAssetError, match="needs a mimeType"):
+        read(builder.glb(), {})
+
+
 def test_a_jpeg_is_a_picture_without_alpha() -> None:
     assert list(pictured(JPEG, "image/jpeg").pictures.values()) == [JPEG]
 

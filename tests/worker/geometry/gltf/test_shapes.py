@@ -1,4 +1,4 @@
-"""Primitives as meshes: topology, normals, texture coordinates, tangents, colours, morph, skin."""
+"""Primitives as meshes: normals, texture coordinates, tangents, colours, morph targets."""
 
 import math
 from typing import Any
@@ -9,7 +9,6 @@ import pytest
 from tests.worker.geometry.gltf.building import TRIANGLE, Builder, shown
 from worker.errors import UnusableAssetError
 from worker.geometry.gltf.reader import read
-from worker.geometry.gltf.topology import assemble
 from worker.geometry.mesh import Mesh
 from worker.geometry.model import Part
 
@@ -27,48 +26,6 @@ def only_part(builder: Builder) -> Part:
 def mesh_of(builder: Builder, mesh: int = 0, **node: Any) -> Mesh:
     builder.json |= shown(mesh, **node)
     return only_part(builder).mesh
-
-
-@pytest.mark.parametrize(
-    ("mode", "expected"),
-    [
-        (0, [[0], [1], [2], [3], [4]]),
-        (1, [[0, 1], [2, 3]]),
-        (2, [[0, 1], [1, 2], [2, 3], [3, 4], [4, 0]]),
-        (3, [[0, 1], [1, 2], [2, 3], [3, 4]]),
-        (4, [[0, 1, 2]]),
-        (5, [[0, 1, 2], [1, 3, 2], [2, 3, 4]]),
-        (6, [[1, 2, 0], [2, 3, 0], [3, 4, 0]]),
-    ],
-)
-def test_five_vertices_are_strung_together_as_section_3_7_2_1_says(
-    mode: int, expected: list[list[int]]
-) -> None:
-    assert assemble(mode, np.arange(5)).tolist() == expected
-
-
-@pytest.mark.parametrize("mode", range(7))
-@pytest.mark.parametrize("length", [1, 2])
-def test_too_few_vertices_give_only_what_is_whole(mode: int, length: int) -> None:
-    least = (1, 2, 2, 2, 3, 3, 3)[mode]
-    expected = {0: length, 2: 2, 1: 1, 3: 1}.get(mode, 0) if length >= least else 0
-
-    assert len(assemble(mode, np.arange(length))) == expected
-
-
-def test_a_strip_that_is_stitched_keeps_its_winding_and_loses_the_stitches() -> None:
-    # Two squares in one strip, joined by repeating 3 and 4.
-    strip = np.array([0, 1, 2, 3, 3, 4, 4, 5, 6, 7])
-    positions = np.array(
-        [[x, y] for base in (0, 5) for x, y in ((base, 0), (base + 1, 0), (base, 1), (base + 1, 1))]
-    )
-
-    triangles = assemble(5, strip)
-
-    corners = positions[triangles]
-    one, other = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    areas = (one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]) / 2
-    assert areas.tolist() == [0.5] * 4
 
 
 def test_a_node_that_mirrors_leaves_the_mesh_and_says_so_in_its_matrix() -> None:
@@ -210,6 +167,21 @@ def test_only_vertices_in_use_are_kept() -> None:
         assert read_mesh.triangles[0].tolist() == [0, 1, 2]
 
 
+def test_primitives_of_nothing_are_left_out_and_told() -> None:
+    builder = Builder()
+    builder.mesh(TRIANGLE[:2])
+    nowhere = {"attributes": {"NORMAL": builder.accessor([[0, 0, 1]] * 3)}}
+    builder.json["meshes"][0]["primitives"].append(nowhere)
+    builder.json |= shown(0)
+    model = read(builder.glb(), {})
+
+    assert model.parts == ()
+    assert model.warnings == (
+        "a primitive with too few vertices is not drawn",
+        "a primitive without positions is not drawn",
+    )
+
+
 def test_an_index_beyond_the_vertices_is_refused_where_it_stands() -> None:
     builder = Builder()
     builder.mesh(TRIANGLE, [0, 1, 3])
@@ -270,72 +242,3 @@ def test_morph_targets_move_at_the_weights_of_the_node_else_of_the_mesh() -> Non
     assert resting.mesh.normals[0] == pytest.approx(np.array([0.25, 0, 1]) / math.hypot(0.25, 1))
     assert moved.mesh.positions.tolist() == [[3, 0, 0], [4, 0, 0], [3, 1, 0]]
     assert resting.key != moved.key
-
-
-def arm() -> Builder:
-    """A triangle at y = 1, whose skin hangs on an upright bone turned by 90 degrees about z."""
-    builder = Builder()
-    half = math.sqrt(0.5)
-    back = np.eye(4, dtype="<f4")
-    back[1, 3] = -1  # the bone's own frame has its origin at y = 1
-    bind = builder.accessor(np.stack([np.eye(4), back]).transpose(0, 2, 1))
-    builder.add("skins", {"joints": [1, 2], "inverseBindMatrices": bind})
-    attributes = {
-        "NORMAL": builder.accessor([[1, 0, 0]] * 3),
-        "TANGENT": builder.accessor([[0, 1, 0, 1]] * 3),
-        "JOINTS_0": builder.accessor([[0, 1, 0, 0]] * 3, "<u1"),
-        "WEIGHTS_0": builder.accessor([[0, 1, 0, 0], [2, 0, 0, 0], [0, 0, 0, 0]]),
-    }
-    builder.mesh([[0, 3, 0], [0, 3, 0], [1, 1, 0]], attributes=attributes)
-    builder.json["nodes"] = [
-        {"mesh": 0, "skin": 0, "translation": [100, 0, 0]},
-        {"children": [2]},
-        {"translation": [0, 1, 0], "rotation": [0, 0, half, half]},
-    ]
-    return builder
-
-
-def test_a_skin_at_rest_follows_its_joints_and_not_its_node() -> None:
-    part = only_part(arm())
-
-    # Two above the bone's origin turns to two on its left; the others hang on the root.
-    assert part.mesh.positions == pytest.approx(
-        np.array([[-2, 1, 0], [0, 3, 0], [1, 1, 0]]), abs=1e-6
-    )
-    assert part.mesh.normals == pytest.approx(np.array([[0, 1, 0], [1, 0, 0], [1, 0, 0]]), abs=1e-6)
-    assert part.mesh.tangents == pytest.approx(
-        np.array([[-1, 0, 0, 1], [0, 1, 0, 1], [0, 1, 0, 1]]), abs=1e-6
-    )
-    assert np.array_equal(part.matrix, np.eye(4))
-
-
-def test_a_skin_that_mirrors_turns_its_triangles_round() -> None:
-    builder = arm()
-    builder.json["nodes"][1]["scale"] = [-1, 1, 1]
-    mesh = only_part(builder).mesh
-
-    assert mesh.positions[1:] == pytest.approx(np.array([[0, 3, 0], [-1, 1, 0]]), abs=1e-6)
-    assert mesh.normals[1] == pytest.approx([-1, 0, 0])
-    assert mesh.triangles.tolist() == [[2, 1, 0]]
-    # The bitangent cross(x, y) = z does not turn, while the normal does: the sign has to.
-    assert mesh.tangents is not None
-    assert mesh.tangents[1].tolist() == [0, 1, 0, -1]
-
-
-@pytest.mark.parametrize(
-    ("change", "word"),
-    [
-        (lambda b: b.json["skins"][0].update(joints=[1]), "fewer|not below 1"),
-        (lambda b: b.json["skins"][0].update(joints=[1, 1]), "equal"),
-        (lambda b: b.json["skins"][0].update(joints=[1, 9]), "not below 3"),
-        (lambda b: b.json["skins"][0].update(joints=[1, 2, 0]), "fewer matrices"),
-        (lambda b: b.json["nodes"][0].update(skin=1), "not below 1"),
-        (lambda b: b.json["nodes"][0].pop("mesh"), "need a mesh"),
-    ],
-)
-def test_a_skin_that_cannot_be_is_refused(change: Any, word: str) -> None:
-    builder = arm()
-    change(builder)
-
-    with pytest.raises(UnusableAssetError, match=word):
-        read(builder.glb(), {})

@@ -67,10 +67,8 @@ class Camera(Named):
     def _one_projection(self) -> Self:
         given = {"perspective": self.perspective, "orthographic": self.orthographic}
         present = {name for name, projection in given.items() if projection is not None}
-        if len(present) > 1:
-            raise ValueError("it has two projections")
         if self.type in given and present != {self.type}:
-            raise ValueError("the projection of its type is not there")
+            raise ValueError("it has not just the projection of its type")
         return self
 
 

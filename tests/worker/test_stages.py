@@ -1,0 +1,34 @@
+import time
+from collections.abc import Iterator
+
+import pytest
+
+from worker.stages import Watch
+
+
+def slow() -> Iterator[int]:
+    for number in range(3):
+        time.sleep(0.02)
+        yield number
+
+
+def test_a_watch_counts_the_time_of_making_and_not_of_using() -> None:
+    watch = Watch(slow())
+
+    for _ in watch:
+        time.sleep(0.1)
+
+    assert 0.06 <= watch.seconds < 0.2
+
+
+def test_a_watch_counts_what_was_made_in_vain_too() -> None:
+    def broken() -> Iterator[int]:
+        time.sleep(0.02)
+        raise ValueError("no more")
+        yield 0
+
+    watch = Watch(broken())
+    with pytest.raises(ValueError, match="no more"):
+        next(watch)
+
+    assert watch.seconds >= 0.02
