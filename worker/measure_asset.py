@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import Any
 
 from worker.errors import AssetMissingError, UnusableAssetError
-from worker.geometry import models
 from worker.images import image_io
 from worker.images.file_kinds import is_picture
 from worker.measure_model import BUFFER_TYPE, buffer_facts, measure_model
+from worker.models import formats as models
 from worker.stages import Report
 
 

@@ -3,10 +3,10 @@
 from typing import Any, Final
 
 from worker.errors import UnusableAssetError
-from worker.geometry import mtl
-from worker.geometry.model_limits import WARNINGS_MAX
-from worker.geometry.model_pictures import measure
-from worker.geometry.models import ModelFormat, model_format, outline
+from worker.models.formats import ModelFormat, model_format, outline
+from worker.models.limits import WARNINGS_MAX
+from worker.models.obj import mtl as mtl
+from worker.models.pictures import measure
 
 BUFFER_TYPE: Final = "application/gltf-buffer"
 LIBRARY_TYPE: Final = "model/mtl"

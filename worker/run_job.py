@@ -16,8 +16,8 @@ from api_schemas.textures.image import ImageSpec
 from worker import result_file, synthesis
 from worker.errors import AssetMissingError
 from worker.fingerprint import fingerprint
-from worker.geometry import models
 from worker.images.image import Image
+from worker.models import formats as models
 from worker.rendering import renderer
 from worker.rendering.packing import PICTURE
 from worker.rendering.scene_builder import TextureMaker

@@ -5,8 +5,8 @@ from pathlib import Path
 
 from api_schemas.model_mesh import ModelMesh
 from worker.errors import AssetMissingError
-from worker.geometry.model import Model
-from worker.geometry.models import read_model
+from worker.models.formats import read_model
+from worker.models.model import Model
 from worker.uploaded_pictures import UploadedPictures
 
 MODEL_BYTES_MAX = 128 << 20

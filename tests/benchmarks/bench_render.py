@@ -22,8 +22,8 @@ from api_schemas.families import Meaning, TextureSpec
 from api_schemas.meshes import ModelMesh
 from api_schemas.output import RenderOutput
 from api_schemas.scene import Scene
-from worker.geometry.model import Model
 from worker.images.image import Image
+from worker.models.model import Model
 
 SIDE = 512
 FRAMES = 9

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 from api_schemas.families import SurfaceSpec
 from api_schemas.model_mesh import ModelMesh
 from worker.errors import RenderError
-from worker.geometry.model import Model, Part
+from worker.models.model import Model, Part
 
 
 def seen_parts(mesh: ModelMesh, model: Model) -> Iterator[tuple[Part, SurfaceSpec | None]]:

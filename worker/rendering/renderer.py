@@ -17,8 +17,8 @@ from api_schemas.output import RenderOutput
 from api_schemas.scene import Scene
 from api_schemas.textures.constant import ConstantSpec
 from worker.errors import RenderError
-from worker.geometry.model import Model
 from worker.images.image import Image
+from worker.models.model import Model
 from worker.rendering.gl_context import GLContext, check
 from worker.rendering.lighting import light_uniforms
 from worker.rendering.packing import PICTURE, PLACES

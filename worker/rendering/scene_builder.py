@@ -16,11 +16,11 @@ from api_schemas.surfaces.phong import PhongSpec
 from api_schemas.surfaces.unlit import UnlitSpec
 from worker.geometry import primitives
 from worker.geometry.mesh import Mesh
-from worker.geometry.model import Model, Part
 from worker.geometry.tangents import with_tangents
 from worker.geometry.transforms import Matrix, parent_from_node
 from worker.images.image import Image
 from worker.images.pyramids import Cut, keep_coverage, mip_chain
+from worker.models.model import Model, Part
 from worker.rendering.cache import ByteCache
 from worker.rendering.model_changes import seen_parts
 from worker.rendering.pyrender_scene import Background, Drawable, View

@@ -13,8 +13,8 @@ from api_schemas.camera import (
 )
 from api_schemas.lights import AmbientLight, DirectionalLight, Light, PointLight, SpotLight
 from worker.errors import RenderError
-from worker.geometry.model import Model, NamedCamera
 from worker.geometry.transforms import Matrix, clip_from_camera, orthonormal, world_from_camera
+from worker.models.model import Model, NamedCamera
 from worker.rendering.framing import Placed, frame, lamp
 from worker.rendering.pyrender_scene import View
 

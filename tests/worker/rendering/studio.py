@@ -13,8 +13,8 @@ from api_schemas.output import RenderOutput
 from api_schemas.scene import Scene
 from api_schemas.textures.image import ImageSpec
 from worker.geometry.mesh import Mesh
-from worker.geometry.model import Model, Part
 from worker.images.image import Image
+from worker.models.model import Model, Part
 from worker.synthesis import synthesize
 
 Pixels = NDArray[np.float32]

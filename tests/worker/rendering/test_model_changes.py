@@ -8,8 +8,8 @@ import pytest
 from api_schemas.model_mesh import ModelMesh
 from api_schemas.surfaces.unlit import UnlitSpec
 from worker.errors import RenderError
-from worker.geometry.model import Model, NamedSurface, Part
 from worker.geometry.plane import plane
+from worker.models.model import Model, NamedSurface, Part
 from worker.rendering.model_changes import seen_parts
 
 ASSET = "0" * 64

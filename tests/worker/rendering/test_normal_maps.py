@@ -11,8 +11,8 @@ from api_schemas.textures.image import ImageSpec
 from tests.worker.rendering.studio import Pixels, Studio
 from tests.worker.rendering.test_vertex_arrays import SQUARE, UV, points_that_face
 from worker.geometry.mesh import Mesh
-from worker.geometry.models import read_model
 from worker.images import image_io
+from worker.models.formats import read_model
 
 pytestmark = pytest.mark.gl
 

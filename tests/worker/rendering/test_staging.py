@@ -11,7 +11,7 @@ from api_schemas.camera import Camera, OrthographicCamera, PerspectiveCamera
 from api_schemas.lights import AmbientLight, DirectionalLight, Light, PointLight, SpotLight
 from api_schemas.transforms import MatrixPlacement
 from worker.errors import RenderError
-from worker.geometry.model import Model, NamedCamera
+from worker.models.model import Model, NamedCamera
 
 pytestmark = pytest.mark.gl
 

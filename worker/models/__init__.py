@@ -1,0 +1,1 @@
+"""Uploaded models: read, measured and held."""

@@ -1,0 +1,1 @@
+"""Reads OBJ with MTL."""
