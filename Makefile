@@ -10,7 +10,7 @@ gl := export TEXLOOM_GL="$$(docker/install.sh gl)"
 pytest := $(python) -m pytest -n 2 --dist loadfile --timeout 300
 
 .DEFAULT_GOAL := help
-.PHONY: help run test test-all check fix bench gallery lock clean installed
+.PHONY: help run test test-all check fix bench faults gallery lock clean installed
 
 help:
 	@echo 'Texloom: describe a texture or a scene in JSON, get back a picture.'
@@ -49,6 +49,9 @@ fix: installed ## repair what ruff can repair, format, write openapi.json anew
 
 bench: installed ## measure, and write tests/benchmarks/RESULTS.md
 	@$(gl); $(python) -m tests.benchmarks.run
+
+faults: installed ## run jobs while processes are killed and the disk fills, and count what is lost
+	@$(gl); TEXLOOM_DATA=.cache docker/install.sh warm && $(python) -m tests.faults
 
 gallery: installed ## draw every example anew
 	@$(gl); $(python) -m tests.gallery

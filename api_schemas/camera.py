@@ -54,7 +54,8 @@ class FramedCamera(Schema):
 
     type: Literal["framed"]
     direction: Vector = Field(
-        default=[0.5, 0.4, 1.0], description="From the middle of the scene towards the camera."
+        default=[0.5, 0.4, 1.0],
+        description="Towards the camera, which looks the other way and comes as near as it can.",
     )
     up: Vector = Field(default=[0.0, 1.0, 0.0], description="What points upwards in the picture.")
     fov_y: Annotated[float, Field(ge=0.001, le=3.1)] = Field(

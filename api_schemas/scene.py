@@ -53,6 +53,7 @@ class Scene(Schema):
     background: MappableColor | None = Field(
         default=None,
         description="What is seen where nothing is: a linear colour, or a picture over the whole "
-        "width and height; transparent without.",
+        "width and height, read once for each pixel; transparent without, and where the picture "
+        "is. Layers do not show it.",
     )
     nodes: Annotated[list[Node], Field(max_length=NODES_MAX)] = Field(description="What is there.")

@@ -23,7 +23,8 @@ FORM: Final = "multipart/form-data"
 FIELD: Final = "file"
 FAMILIES: Final = ("image/", "model/")
 BUFFER: Final = "application/gltf-buffer"
-UNTOLD: Final = ("", "application/octet-stream")
+UNTOLD: Final = ("", "application/octet-stream", "application/x-www-form-urlencoded")
+"""What says nothing of a file; the last is curl's word for `--data-binary`."""
 PIECE: Final = 1 << 18
 
 

@@ -4,6 +4,7 @@ import json
 import math
 import struct
 import time
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
@@ -139,6 +140,23 @@ def test_what_a_file_is_called_does_not_change_what_it_is(client, media_type):
     for name in ("zeros", "a zip", "not json"):
         refused = uploaded(client, HOSTILE[name], media_type)
         assert refused in REFUSALS or refused["kind"] == "material_library"
+
+
+def test_many_at_once_who_call_one_file_by_many_names_agree_in_the_end(service, client):
+    content = small_models.glb(extras={"once": True})
+    names = ["application/gltf-buffer", "model/gltf-binary", "image/png", ""] * 2
+
+    def upload(media_type):
+        with service.client() as another:
+            return another.post(
+                "/v1/assets", content=content, headers={"Content-Type": media_type}
+            ).status_code
+
+    with ThreadPoolExecutor(len(names)) as pool:
+        statuses = list(pool.map(upload, names))
+
+    assert set(statuses) <= {200, 201}
+    assert uploaded(client, content, "application/gltf-buffer")["kind"] == "model"
 
 
 def test_a_data_uri_of_200_megabytes_is_told_in_time(client):

@@ -32,12 +32,13 @@ def prepared(client):
     return location, done, running
 
 
-@pytest.mark.parametrize("what", ["submit", "upload", "cancel", "delete"])
+@pytest.mark.parametrize("what", ["submit", "batch", "upload", "cancel", "delete"])
 def test_what_has_to_be_written_is_507_and_changes_nothing(client, prepared, full_disk, what):
     location, _, running = prepared
     new = {**BODY, "texture": {"technique": "perlin", "seed": 2}}
     answer = {
         "submit": lambda: client.post("/v1/textures", json=new),
+        "batch": lambda: client.post("/v1/batches", json={"items": [new, new]}),
         "upload": lambda: client.post("/v1/assets", content=ASSET + b"2"),
         "cancel": lambda: client.delete(running["links"]["cancel"]),
         "delete": lambda: client.delete(location),
@@ -48,6 +49,7 @@ def test_what_has_to_be_written_is_507_and_changes_nothing(client, prepared, ful
     assert client.head(location).status_code == 200
     assert client.get(running["links"]["self"]).json()["state"] in ("queued", "running")
     assert len(client.get("/v1/jobs").json()["jobs"]) == 2
+    assert client.get("/v1/batches").json()["batches"] == []
 
 
 def test_what_is_there_can_be_had(client, prepared, full_disk):

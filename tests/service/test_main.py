@@ -12,20 +12,37 @@ from service import __main__ as main
 ROOT = Path(__file__).parents[2]
 
 
-@pytest.mark.parametrize("place", ["file", "file/below"])
-def test_a_data_folder_that_cannot_be_is_told_in_one_line(tmp_path, place):
-    (tmp_path / "file").touch()
-
-    ended = subprocess.run(
+def serve(data):
+    """Start a service that should not stay."""
+    return subprocess.run(
         [sys.executable, "-m", "service"],
         cwd=ROOT,
-        env=os.environ
-        | {"TEXLOOM_DATA": str(tmp_path / place), "TEXLOOM_PORT": "0", "PYTHONPATH": str(ROOT)},
+        env=os.environ | {"TEXLOOM_DATA": str(data), "TEXLOOM_PORT": "0", "PYTHONPATH": str(ROOT)},
         capture_output=True,
         text=True,
         timeout=60,
         check=False,
     )
+
+
+def test_damaged_records_are_told_in_one_line_and_left_alone(tmp_path):
+    content = b"no database " * 999
+    (tmp_path / "jobs.sqlite").write_bytes(content)
+
+    ended = serve(tmp_path)
+
+    assert ended.returncode == 1
+    assert ended.stderr.startswith("texloom: cannot use")
+    assert "file is not a database" in ended.stderr
+    assert ended.stderr.count("\n") == 1
+    assert (tmp_path / "jobs.sqlite").read_bytes() == content
+
+
+@pytest.mark.parametrize("place", ["file", "file/below"])
+def test_a_data_folder_that_cannot_be_is_told_in_one_line(tmp_path, place):
+    (tmp_path / "file").touch()
+
+    ended = serve(tmp_path / place)
 
     assert ended.returncode == 1
     assert ended.stderr.startswith("texloom: cannot use the data folder")

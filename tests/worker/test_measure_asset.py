@@ -131,6 +131,7 @@ def test_an_obj_is_measured_by_itself_and_names_the_files_it_needs(tmp_path: Pat
         "materials": ["red"],
         "nodes": ["thing"],
         "cameras": [],
+        "scenes": 0,
         "lights": 0,
         "texels": 0,
         "files": ["a b.mtl", "c.mtl"],

@@ -61,6 +61,8 @@ class _Body:
     is_text: bool
 
 
+# A float32 NaN may be a signalling one, which numpy tells of when it becomes a float64.
+@np.errstate(invalid="ignore")
 def read_body(data: bytes, header: Header, wanted: frozenset[str]) -> dict[str, Table]:
     """Read the elements whose names are wanted.
 

@@ -51,7 +51,8 @@ def read(data: bytes) -> Model:
     if is_binary_stl(data):
         check_size(_binary_count(data), TRIANGLES_MAX, "triangles")
         records = np.frombuffer(data, _RECORD, _binary_count(data), offset=_HEADER)
-        corners = records["corners"].astype(np.float64)
+        with np.errstate(invalid="ignore"):  # a NaN may be a signalling one
+            corners = records["corners"].astype(np.float64)
         colours = _colours(data[:80], records["spare"])
     else:
         corners = _corners_in_text(data)

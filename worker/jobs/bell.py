@@ -3,7 +3,7 @@
 import asyncio
 import threading
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Awaitable, Callable, Iterator
 from contextlib import contextmanager
 
 
@@ -29,6 +29,22 @@ class Bell:
                 self._listeners[key].discard(listener)
                 if not self._listeners[key]:
                     del self._listeners[key]
+
+    async def until(
+        self, key: str, is_so: Callable[[], Awaitable[bool]], timeout_seconds: float
+    ) -> bool:
+        """Wait until something is so, asked now and whenever the bell rings; False if in vain."""
+        deadline = asyncio.get_running_loop().time() + timeout_seconds
+        with self.listening(key) as rung:
+            while True:
+                rung.clear()
+                if await is_so():
+                    return True
+                try:
+                    async with asyncio.timeout_at(deadline):
+                        await rung.wait()
+                except TimeoutError:
+                    return False
 
     def ring(self, key: str) -> None:
         """Wake the listeners, from any thread."""

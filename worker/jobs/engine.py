@@ -1,40 +1,34 @@
 """The embedded engine: records, files and slots of one data folder, behind one class."""
 
 import asyncio
-import shutil
 import threading
 import time
 from functools import partial
 from pathlib import Path
-from typing import IO, Any
+from typing import Any
 
-from worker.jobs import idempotency
-from worker.jobs.assets import Assets
 from worker.jobs.batches import Batches
 from worker.jobs.bell import Bell
 from worker.jobs.claims import Claims
-from worker.jobs.database import Database
+from worker.jobs.crew import Crew
+from worker.jobs.data_folder import DataFolder
 from worker.jobs.environment import child_environment
 from worker.jobs.errors import DrainingError
-from worker.jobs.files import keep_only, lock_folder, make_folder
 from worker.jobs.forecast import Forecast
 from worker.jobs.forkserver import start_forkserver
-from worker.jobs.housekeeping import Housekeeping
 from worker.jobs.idempotency import Key
 from worker.jobs.intake import Request
 from worker.jobs.job import FINAL_STATES, Job, Priority, State
 from worker.jobs.line import Line
 from worker.jobs.measuring import Measuring
 from worker.jobs.meters import Meters
-from worker.jobs.migrations import upgrade
 from worker.jobs.requests import Requests
-from worker.jobs.results import Limits, Results
+from worker.jobs.results import Limits
 from worker.jobs.room import Room
 from worker.jobs.run_times import RunTimes
 from worker.jobs.settling import Desk
 from worker.jobs.slot import Slot
-from worker.jobs.slot_thread import SlotThread
-from worker.jobs.status import Readiness, Status, StoreStatus, queues
+from worker.jobs.status import Readiness, Status, queues
 from worker.jobs.watch import Watch
 
 
@@ -76,18 +70,18 @@ class EmbeddedEngine:
         gl: str = "osmesa",
         native_cpu: bool = False,
     ) -> None:
-        self._data = data = make_folder(data.resolve())
-        self._environment = child_environment(data, gl=gl, native_cpu=native_cpu)
+        self.meters = Meters()
+        self._data = DataFolder(
+            data, keep=keep, assets_bytes_limit=assets_bytes_limit, meters=self.meters
+        )
+        self.assets = self._data.assets
+        self._environment = child_environment(self._data.path, gl=gl, native_cpu=native_cpu)
         self._time_limit_seconds = time_limit_seconds
         self._draining = threading.Event()
         self._started = time.monotonic()
         self._bell = Bell()
-        self.meters = Meters()
-        self._database = Database(data / "jobs.sqlite")
-        self._results = Results(data / "results", keep)
-        self.assets = Assets(data / "assets", self._database, assets_bytes_limit)
-        self._housekeeping = Housekeeping(self._database, self._results, self.assets, self.meters)
-        self._claims = Claims(self._database, slots)
+        database = self._data.database
+        self._claims = Claims(database, slots)
         self._line = Line(self._claims)
         self._run_times = RunTimes()
         room = Room(
@@ -97,23 +91,23 @@ class EmbeddedEngine:
             run_times=self._run_times,
         )
         self._requests = Requests(
-            self._database, room=room, meters=self.meters, is_reusable=self._is_reusable
+            database, room=room, meters=self.meters, is_reusable=self._is_reusable
         )
         self.batches = Batches(
-            self._database,
+            database,
             room=room,
             is_reusable=self._is_reusable,
             require_open=self._require_open,
             arrived=partial(self._line.announce, slots),
             unwanted=self._stop_unwanted,
         )
-        self.forecast = Forecast(self._database, slots)
+        self.forecast = Forecast(database, slots)
         self.watch = Watch(self._requests.look)
-        self._database.on_write(self.watch.wake)
+        database.on_write(self.watch.wake)
         desk = Desk(
             line=self._line,
             claims=self._claims,
-            results=self._results,
+            results=self._data.results,
             assets=self.assets,
             run_times=self._run_times,
             meters=self.meters,
@@ -124,11 +118,7 @@ class EmbeddedEngine:
         def slot(module: str) -> Slot:
             return Slot(module, self._environment, memory_limit_bytes=memory_limit_bytes)
 
-        self._lock: IO[bytes] | None = None
-        self._threads = [
-            SlotThread(f"slot-{n}", partial(slot, executor), desk, recycle_after)
-            for n in range(slots)
-        ]
+        self._crew = Crew(slots, partial(slot, executor), desk, recycle_after)
         self._measuring = Measuring(slot(measurer), self.assets.folder)
 
     def start(self) -> None:
@@ -141,15 +131,10 @@ class EmbeddedEngine:
             RuntimeError: no forkserver was started, and this is not the main thread.
         """
         start_forkserver()
-        self._lock = lock_folder(self._data)
-        try:
-            self._take_over()
-        except BaseException:
-            self._let_go()
-            raise
-        for thread in self._threads:
-            thread.start()
-        self._housekeeping.start()
+        self._data.take(self._environment)
+        self._claims.recover()
+        self._run_times.recall(self._data.database)
+        self._crew.start()
         self.watch.start()
 
     def drain(self, timeout_seconds: float) -> None:
@@ -158,20 +143,10 @@ class EmbeddedEngine:
         What is not finished in time goes back into the queue, and is done after the next start.
         """
         self._draining.set()
-        for thread in self._threads:
-            thread.stop()
-        self._line.announce(len(self._threads))
-        deadline = time.monotonic() + timeout_seconds
-        for thread in self._threads:
-            thread.join(max(0.0, deadline - time.monotonic()))
-        for thread in self._threads:
-            thread.abandon()
-        for thread in self._threads:
-            thread.join()
+        self._crew.drain(timeout_seconds)
         self._measuring.close()
-        self._housekeeping.stop()
         self.watch.close()
-        self._let_go()
+        self._data.let_go()
 
     def submit(
         self,
@@ -201,7 +176,7 @@ class EmbeddedEngine:
         job = self._requests.submit(request, key)
         if job.state == "queued":
             self._line.announce()
-        self._database.flush()  # a slot is at it already
+        self._data.database.flush()  # a slot is at it already
         return job
 
     def replayed(self, tenant: str, key: Key) -> Job | None:
@@ -212,7 +187,7 @@ class EmbeddedEngine:
         """
         job = self._requests.replayed(tenant, key)
         if job is not None:
-            self._database.flush()  # whoever recorded it may not have come to that yet
+            self._data.database.flush()  # whoever recorded it may not have come to that yet
         return job
 
     def get(self, tenant: str, job_id: str) -> Job | None:
@@ -242,24 +217,20 @@ class EmbeddedEngine:
 
     async def finished(self, job: Job, timeout_seconds: float) -> Job:
         """A job as soon as it is finished, or as it is when the time is up."""
-        deadline = asyncio.get_running_loop().time() + timeout_seconds
-        with self._bell.listening(job.work_id) as rung:
-            while job.state not in FINAL_STATES:
-                rung.clear()
-                known = await asyncio.to_thread(self.get, job.tenant, job.id)
-                job = known or job
-                if job.state in FINAL_STATES:
-                    break
-                try:
-                    async with asyncio.timeout_at(deadline):
-                        await rung.wait()
-                except TimeoutError:
-                    break
+
+        async def is_over() -> bool:
+            nonlocal job
+            known = await asyncio.to_thread(self.get, job.tenant, job.id)
+            job = known or job
+            return job.state in FINAL_STATES
+
+        if job.state not in FINAL_STATES:
+            await self._bell.until(job.work_id, is_over, timeout_seconds)
         return job
 
     def result_path(self, job: Job) -> Path | None:
         """The result of a succeeded job; None when it was evicted."""
-        return self._results.find(job.work_id)
+        return self._data.results.find(job.work_id)
 
     def measure(
         self, path: Path, time_limit_seconds: float, media_type: str = ""
@@ -278,9 +249,9 @@ class EmbeddedEngine:
         """Whether work would be done."""
         counts = self._claims.counts()
         return Readiness(
-            slots=len(self._threads),
-            warm_slots=sum(thread.is_warm for thread in self._threads),
-            fingerprint=self._fingerprint(),
+            slots=len(self._crew),
+            warm_slots=self._crew.warm,
+            fingerprint=self._crew.fingerprint,
             draining=self._draining.is_set(),
             queued=counts.get("queued", 0),
             running=counts.get("running", 0),
@@ -291,33 +262,12 @@ class EmbeddedEngine:
         return Status(
             draining=self._draining.is_set(),
             uptime_seconds=time.monotonic() - self._started,
-            fingerprint=self._fingerprint(),
+            fingerprint=self._crew.fingerprint,
             typical_seconds=self._run_times.typical(),
-            queues=queues(self._database),
-            slots=tuple(thread.status() for thread in self._threads),
-            store=StoreStatus(
-                result_bytes=self._results.bytes,
-                results=self._results.count,
-                asset_bytes=self.assets.bytes,
-                free_bytes=shutil.disk_usage(self._data).free,
-            ),
+            queues=queues(self._data.database),
+            slots=self._crew.status(),
+            store=self._data.status(),
         )
-
-    def _take_over(self) -> None:
-        """Bring records and files in step with each other and with this version."""
-        self._database.check()
-        upgrade(self._database)
-        self._claims.recover()
-        self._run_times.recall(self._database)
-        idempotency.sweep(self._database)
-        self._housekeeping.check()
-        keep_only(Path(self._environment["NUMBA_CACHE_DIR"]))
-        make_folder(Path(self._environment["MESA_SHADER_CACHE_DIR"]))
-
-    def _let_go(self) -> None:
-        self._database.close()
-        if self._lock is not None:
-            self._lock.close()
 
     def _require_open(self) -> None:
         if self._draining.is_set():
@@ -329,11 +279,8 @@ class EmbeddedEngine:
             self._line.cancel(work_id)
         self._bell.ring(work_id)
 
-    def _fingerprint(self) -> str | None:
-        return next((one.fingerprint for one in self._threads if one.fingerprint), None)
-
     def _is_reusable(self, work_id: str, fingerprint: str | None) -> bool:
         """Whether a result is still there, and no warm child says that it comes from elsewhere."""
-        return self._fingerprint() in (None, fingerprint) and (
-            self._results.find(work_id) is not None
+        return self._crew.fingerprint in (None, fingerprint) and (
+            self._data.results.find(work_id) is not None
         )

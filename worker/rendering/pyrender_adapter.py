@@ -8,75 +8,23 @@ lights.
 
 import time
 from collections.abc import Callable, Hashable
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import pyrender
-from numpy.typing import NDArray
 from pyrender.constants import RenderFlags
 
 from worker.geometry.transforms import Matrix, rigid_inverse
 from worker.rendering.chunks import Source
 from worker.rendering.fragment import background_sources, surface_sources
+from worker.rendering.frame import Frame, TraversedProgram
 from worker.rendering.gl_context import GL, GLContext, check, floats
 from worker.rendering.layer_uniforms import LayerUniforms
 from worker.rendering.programs import Program, ProgramCache
 from worker.rendering.pyrender_scene import FlatScene, PlacedNode, SurfacePrimitive
 from worker.rendering.samplers import SamplerCache
-from worker.rendering.shading import Picture, Shading
+from worker.rendering.shading import Shading
 from worker.rendering.targets import Target
-
-_SET_BY_PYRENDER = frozenset({"V", "P", "cam_pos"})
-
-
-@dataclass(slots=True)
-class _TraversedProgram(Program):
-    """A program as pyrender's traversal handles it; `frame` is the last one that it was lit for."""
-
-    frame: int = 0
-
-    def _bind(self) -> None:
-        self.bind()
-
-    def _unbind(self) -> None:
-        GL.glUseProgram(0)
-
-    def set_uniform(self, name: str, value: Any) -> None:
-        """Take pyrender's camera uniforms; we set our own, in float64 until the last step."""
-        if name not in _SET_BY_PYRENDER:
-            self.set(name, value)
-
-
-@dataclass(slots=True)
-class _Frame:
-    """What one tile is drawn with.
-
-    Attributes:
-        number: Which frame of this renderer it is, from 1.
-        scene: What is drawn.
-        lights: Uniforms.
-        target: Where the samples go.
-        clip_from_object: float32 (n, 4, 4), by the number of the drawable.
-        eye: As lib/fragment.glsl wants it.
-        corner: Of the tile in the picture, in samples from the lower left.
-        picture: Width and height of the whole picture in pixels.
-        supersampling: Samples along each side of a pixel.
-        blending: Whether what is drawn now lets light through.
-        bound: What each texture unit holds.
-    """
-
-    number: int
-    scene: FlatScene
-    lights: dict[str, Any]
-    target: Target
-    clip_from_object: NDArray[np.float32]
-    eye: NDArray[np.float64]
-    corner: NDArray[np.float64]
-    picture: NDArray[np.float64]
-    supersampling: int
-    blending: bool
-    bound: dict[int, Picture]
 
 
 class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
@@ -90,10 +38,10 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         """Prepare to draw in an open context."""
         super().__init__(1, 1)
         self._context = context
-        self._programs = ProgramCache(_TraversedProgram)
+        self._programs = ProgramCache(TraversedProgram)
         self._samplers = SamplerCache()
         self._layers = LayerUniforms()
-        self._frame: _Frame | None = None
+        self._frame: Frame | None = None
         self._frames = 0
         self._stream = 0  # a buffer of elements in another order
         self._no_vertices = 0
@@ -128,7 +76,7 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         backward = view.world_from_camera[:3, 2]
         picture = np.diag(tile_from_picture)[:2] * size
         self._frames += 1
-        self._frame = _Frame(
+        self._frame = Frame(
             number=self._frames,
             scene=scene,
             lights=lights,
@@ -188,7 +136,7 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         return self._linked((layout, layered), lambda: surface_sources(layout, layered=layered))
 
     def _bind_lighting(
-        self, scene: FlatScene, program: _TraversedProgram, node: PlacedNode, flags: int
+        self, scene: FlatScene, program: TraversedProgram, node: PlacedNode, flags: int
     ) -> None:
         assert self._frame is not None
         if program.frame == self._frame.number:
@@ -269,7 +217,7 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
 
     def _linked(
         self, key: Hashable, sources: Callable[[], tuple[Source, Source]]
-    ) -> _TraversedProgram:
+    ) -> TraversedProgram:
         start = time.perf_counter()
         program = self._programs.get(key, sources)
         if not program.drawn:

@@ -38,7 +38,15 @@ def test_the_published_media_types_are_those_of_the_kinds_that_are_read():
 
 @pytest.mark.parametrize(
     "media_type",
-    ["image/png", "image/jpeg", "model/obj", "IMAGE/PNG; q=1", "application/octet-stream", None],
+    [
+        "image/png",
+        "image/jpeg",
+        "model/obj",
+        "IMAGE/PNG; q=1",
+        "application/octet-stream",
+        "application/x-www-form-urlencoded",
+        None,
+    ],
 )
 def test_a_bare_upload_is_named_by_its_hash(client, media_type):
     content = picture()

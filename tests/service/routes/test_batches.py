@@ -1,75 +1,16 @@
-"""Batches: listed and swept, all or nothing, with one manifest."""
+"""Batches: all or nothing, with one manifest."""
 
 import time
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
-from api_schemas.batches import AXES_MAX, ITEMS_MAX
-from service.examples import batch_examples, examples
+from api_schemas.batches import ITEMS_MAX
+from service.examples import batch_examples
 from service.tenants import tenant
+from tests.service.batch_calls import SCENE, finished, made, manifest, post, refusal, swept, texture
 
 UNKNOWN = "0" * 32
-SCENE = examples("render")["shapes"]
-
-
-def texture(seed=0, width=16, height=16, **more):
-    return {
-        "texture": {"technique": "perlin", "seed": seed},
-        "output": {"size": [width, height]},
-        **more,
-    }
-
-
-def post(client, body, **headers):
-    return client.post("/v1/batches", json=body, headers=headers)
-
-
-def made(client, body):
-    response = post(client, body)
-    assert response.status_code == 202, response.text
-    return response.json()
-
-
-def finished(client, batch):
-    """Wait for the end of a batch."""
-    deadline = time.monotonic() + 60
-    while (now := client.get(batch["links"]["self"]).json())["finished"] is None:
-        assert time.monotonic() < deadline
-        time.sleep(0.02)
-    return now
-
-
-def manifest(client, batch):
-    return client.get(batch["links"]["manifest"]).json()
-
-
-def swept(mode, *axes, request=None):
-    return {
-        "request": request or texture(),
-        "sweep": {
-            "mode": mode,
-            "axes": [{"pointer": pointer, "values": values} for pointer, values in axes],
-        },
-    }
-
-
-def newest(client):
-    """The ids of the newest job and of the newest batch."""
-    return [
-        [item["id"] for item in client.get(f"/v1/{name}?limit=1").json()[name]]
-        for name in ("jobs", "batches")
-    ]
-
-
-def refusal(client, body, status=409):
-    """The code and the pointer of a refusal, after which nothing was recorded."""
-    before = newest(client)
-    response = post(client, body)
-    assert response.status_code == status, response.text
-    assert newest(client) == before
-    problem = response.json()
-    return problem["code"], problem.get("pointer", problem.get("problems", [{}])[0].get("pointer"))
 
 
 def test_a_list_becomes_jobs_in_its_order(client):
@@ -129,106 +70,6 @@ def test_counts_and_progress_add_up(client):
     assert failed["result"] is failed["links"]["result"] is None
 
 
-def test_a_grid_is_every_value_with_every_other_the_last_changing_fastest(client):
-    axes = [("/texture/seed", [1, 2, 3]), ("/output/size", [[8, 8], [9, 9]])]
-    told = manifest(client, made(client, swept("grid", *axes)))["items"]
-
-    assert [item["values"] for item in told] == [
-        {"/texture/seed": seed, "/output/size": size} for seed in axes[0][1] for size in axes[1][1]
-    ]
-    assert len({item["digest"] for item in told}) == 6
-    alone = client.post("/v1/validate", json=texture(2, 9, 9)).json()["digest"]
-    assert told[3]["digest"] == alone
-
-
-def test_a_zip_takes_the_first_of_each_then_the_second(client):
-    body = swept("zip", ("/texture/seed", [1, 2, 3]), ("/texture/octaves", [4, 5, 6]))
-    told = manifest(client, made(client, body))["items"]
-
-    assert [item["values"] for item in told] == [
-        {"/texture/seed": n, "/texture/octaves": n + 3} for n in (1, 2, 3)
-    ]
-
-
-def test_a_sweep_goes_into_defaults_and_into_lists(client):
-    """Neither the octaves nor the output are written in the request; the size has two numbers."""
-    request = {"texture": {"technique": "perlin"}}
-    axes = [("/texture/octaves", [2]), ("/output/size/1", [64]), ("/output/size/0", [32])]
-    [item] = manifest(client, made(client, swept("zip", *axes, request=request)))["items"]
-    alone = {"texture": {"technique": "perlin", "octaves": 2}, "output": {"size": [32, 64]}}
-
-    assert item["digest"] == client.post("/v1/validate", json=alone).json()["digest"]
-
-
-def test_a_sweep_over_whole_textures_leaves_their_defaults_open(client):
-    values = [{"technique": "checkerboard"}, {"technique": "perlin", "seed": 5}]
-    told = manifest(client, made(client, swept("grid", ("/texture", values))))["items"]
-    expected = [
-        client.post("/v1/validate", json={**texture(), "texture": value}).json()["digest"]
-        for value in values
-    ]
-
-    assert [item["digest"] for item in told] == expected
-
-
-@pytest.mark.parametrize(
-    "pointer",
-    [
-        *("/texture/sede", "/scene", "/texture/seed/0", "/texture/~0", "/"),
-        *(f"/output/size/{index}" for index in ("2", "01", "-", "-1", "9" * 400)),
-    ],
-)
-def test_a_pointer_to_nothing_is_named(client, pointer):
-    body = swept("grid", ("/texture/seed", [1]), (pointer, [1]))
-
-    assert refusal(client, body) == ("sweep_pointer_unknown", "/sweep/axes/1/pointer")
-
-
-@pytest.mark.parametrize("pointer", ["", "texture/seed", "/texture/~2", "/texture/~"])
-def test_what_is_no_pointer_does_not_fit_the_schema(client, pointer):
-    found = refusal(client, swept("grid", (pointer, [1])), 422)
-
-    assert found == ("request_invalid", "/sweep/axes/0/pointer")
-
-
-@pytest.mark.parametrize("other", ["/texture/seed", "/texture"])
-def test_axes_into_each_other_are_refused(client, other):
-    body = swept("grid", ("/texture/seed", [1]), (other, [1]))
-
-    assert refusal(client, body) == ("sweep_pointers_overlap", "/sweep/axes/1/pointer")
-
-
-def test_a_zip_of_unequal_lists_is_refused(client):
-    body = swept("zip", ("/texture/seed", [1, 2]), ("/texture/octaves", [1, 2, 3]))
-
-    assert refusal(client, body) == ("sweep_lengths_differ", "/sweep/axes/1/values")
-
-
-def test_a_value_that_does_not_fit_is_named(client):
-    axes = [("/texture/octaves", [1, 2]), ("/texture/seed", [1, "x", 2])]
-
-    assert refusal(client, swept("grid", *axes)) == (
-        "sweep_value_invalid",
-        "/sweep/axes/1/values/1",
-    )
-
-
-def test_a_mistake_within_a_value_is_named(client):
-    values = [{"technique": "perlin"}, {"technique": "perlin", "seed": -1}]
-
-    assert refusal(client, swept("grid", ("/texture", values))) == (
-        "sweep_value_invalid",
-        "/sweep/axes/0/values/1/seed",
-    )
-
-
-def test_what_a_value_breaks_elsewhere_is_named_there(client):
-    """A checkerboard has no seed: written in the request, it is what is too much."""
-    body = swept("grid", ("/texture/technique", ["perlin", "checkerboard"]))
-
-    assert refusal(client, body) == ("sweep_value_invalid", "/request/texture/seed")
-
-
 def test_an_item_that_cannot_be_done_is_named_and_nothing_is_queued(client):
     missing = {"texture": {"technique": "image", "asset": "0" * 64}, "output": {"size": [8, 8]}}
     body = {"items": [texture(1), missing, texture(2)]}
@@ -264,33 +105,6 @@ def test_a_thousand_items_are_taken_and_one_more_is_refused(client):
     assert batch["size"] == ITEMS_MAX == 1000
     too_many = {"items": [texture()] * (ITEMS_MAX + 1)}
     assert refusal(client, too_many, 422) == ("request_invalid", "/items")
-
-
-def test_a_grid_beyond_the_limit_is_refused_before_it_is_made(client):
-    """8 axes of 1000 values would be 10^24 requests."""
-    names = ["seed", "octaves", "frequency", "lacunarity", "gain"]
-    there = set(client.post("/v1/validate", json=texture()).json()["normalised"]["texture"])
-    axes = [(f"/texture/{name}", list(range(1000))) for name in names if name in there]
-    axes += [("/output/size/0", list(range(1000))), ("/output/size/1", list(range(1000)))]
-    code, pointer = refusal(client, swept("grid", *axes[:AXES_MAX]))
-
-    assert (code, pointer) == ("batch_too_large", "/sweep/axes")
-    axes = [("/texture/seed", list(range(7))), ("/output/size/0", list(range(1, 144)))]
-    assert refusal(client, swept("grid", *axes))[0] == "batch_too_large", "7 * 143 = 1001"
-
-
-def test_a_batch_that_costs_too_much_altogether_is_refused(client):
-    big = {"texture": {"technique": "perlin", "octaves": 16}, "output": {"size": [4096, 4096]}}
-    one = client.post("/v1/validate", json=big).json()
-    assert one["possible"]
-    count = int(60 * one["limit"]["seconds"] / one["estimate"]["seconds"]) + 1
-    assert count <= 1000
-    body = swept("grid", ("/texture/seed", list(range(count))), request=big)
-    problem = post(client, body).json()
-
-    assert problem["code"] == "over_budget"
-    assert problem["estimate"]["seconds"] > problem["limit"]["seconds"]
-    assert problem["limit"]["seconds"] == 60 * one["limit"]["seconds"]
 
 
 def test_equal_items_are_done_once(client):

@@ -142,6 +142,23 @@ def test_a_cancelled_job_ends_its_streams(app, client, stuck):
         assert caller.events[-1].job["state"] == "cancelled"
 
 
+def test_cancelling_against_finishing_ends_each_stream_once_and_with_the_truth(app, client):
+    jobs = [submit(client, 0, size=[200, n + 1]) for n in range(30)]
+
+    async def follow():
+        callers = [Caller(app, job["links"]["events"]) for job in jobs]
+        reading = [asyncio.create_task(caller.call()) for caller in callers]
+        for job in jobs:
+            await asyncio.to_thread(client.delete, job["links"]["cancel"])
+        async with asyncio.timeout(20):
+            await asyncio.gather(*reading)
+        return callers
+
+    for job, caller in zip(jobs, run(follow()), strict=True):
+        assert [event.kind for event in caller.events].count("end") == 1
+        assert caller.events[-1].job == client.get(job["links"]["self"]).json()
+
+
 def test_a_silent_stream_shows_that_it_lives(app, stuck, monkeypatch):
     monkeypatch.setattr(event_stream, "HEARTBEAT_SECONDS", 0.05)
 
@@ -272,19 +289,3 @@ def test_waiting_jobs_hear_how_they_advance(app, client):
 
     assert first.job["position"] == second.job["position"] + 1
     assert second.job["state"] == "queued"
-
-
-def test_history_tells_how_long_it_will_take(make_client):
-    """Two jobs of .3 s and one slot: the third has half of that to go at most, the fourth more."""
-    client = make_client(slots=1)
-    first = submit(client, 1004, size=[1, 1], wait=30)
-    second = submit(client, 1002, size=[1, 2])
-    third = submit(client, 1002, size=[1, 3])
-    answers = [client.get(job["links"]["self"]).json() for job in (first, second, third)]
-    client.delete(second["links"]["cancel"])
-    client.delete(third["links"]["cancel"])
-
-    assert answers[0]["eta_seconds"] is None, "it is finished"
-    assert second["eta_seconds"] is not None
-    assert answers[2]["state"] == "queued"
-    assert 0.3 <= answers[2]["eta_seconds"] <= 10

@@ -263,3 +263,19 @@ def test_get_waits_for_the_end_where_that_is_preferred(client):
 
     assert response.json()["state"] == "succeeded"
     assert response.headers["preference-applied"] == "wait=20"
+
+
+def test_history_tells_how_long_it_will_take(make_client):
+    """A job took .3 s: the next in line waits about as long, and then takes its own time."""
+    client = make_client(slots=1)
+    first = submit(client, seed=1004, size=[1, 1]).json()
+    second = submit(client, seed=1002, size=[1, 2], wait=0).json()
+    third = submit(client, seed=1002, size=[1, 3], wait=0).json()
+    answers = [client.get(job["links"]["self"]).json() for job in (first, second, third)]
+    client.delete(second["links"]["cancel"])
+    client.delete(third["links"]["cancel"])
+
+    assert answers[0]["eta_seconds"] is None, "it is finished"
+    assert second["eta_seconds"] is not None
+    assert answers[2]["state"] == "queued"
+    assert 0.3 <= answers[2]["eta_seconds"] <= 10

@@ -57,9 +57,8 @@ def test_holes_bridged_from_one_to_the_next_stay_open(seed: int) -> None:
     random = np.random.default_rng(seed)
     holes = []
     for number in range(random.integers(1, 6)):
-        angles = (
-            random.random() * 6 - 2 * np.pi * np.arange(sides := random.integers(3, 10)) / sides
-        )
+        sides = random.integers(3, 10)
+        angles = random.random() * 6 - 2 * np.pi * np.arange(sides) / sides
         ring = [(3 * number + 1.5 + math.cos(a), 2 + math.sin(a), 0.0) for a in angles]
         leftmost = ring.index(min(ring))
         holes.append(ring[leftmost:] + ring[:leftmost])

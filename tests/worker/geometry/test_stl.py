@@ -74,6 +74,7 @@ def test_magics_writes_red_first_and_a_colour_for_the_rest_in_the_header() -> No
         (b"solid empty\nendsolid empty\n", "no triangles"),
         (binary(CORNERS * np.nan), "not three numbers"),
         (binary(CORNERS * 1e20), "not three numbers"),
+        (binary(CORNERS)[:96] + b"\1\0\xa0\x7f" + binary(CORNERS)[100:], "not three numbers"),
         (in_text(CORNERS).replace(b"2.0", b"two"), "not three numbers"),
         (in_text(CORNERS)[:130], "three vertices each"),
         (in_text(CORNERS).replace(b"vertex 2.0 0.0 0.0", b""), "three vertices each"),

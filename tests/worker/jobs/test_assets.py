@@ -49,6 +49,15 @@ def test_the_same_content_is_stored_once_and_owned_by_each(assets, put, tmp_path
     assert assets.path("b", SHA256).read_bytes() == CONTENT
 
 
+def test_what_is_told_anew_of_an_asset_its_owner_alone_hears(assets, put):
+    put("a")
+    put("b")
+    assets.tell("a", SHA256, {"kind": "model"})
+    assert assets.get("a", SHA256).facts == {"kind": "model"}
+    assert assets.get("b", SHA256).facts["kind"] == "image"
+    assert put("a").facts == {"kind": "model"}
+
+
 def test_nobody_sees_or_deletes_what_others_own(assets, put):
     put("a")
     assert assets.get("b", SHA256) is None

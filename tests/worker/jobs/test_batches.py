@@ -19,7 +19,7 @@ def item(values=None, *, digest=None, priority="batch", tenant="local", **body):
 
 
 def counts(engine):
-    with engine._database.reading() as connection:
+    with engine._data.database.reading() as connection:
         return [
             connection.execute(select(func.count()).select_from(table)).scalar_one()
             for table in TABLES

@@ -28,7 +28,7 @@ def test_an_evicted_result_is_made_again_when_it_is_asked_for(
     monkeypatch.setattr(results_module, "GRACE_SECONDS", 0.0)
     engine = make_engine(keep=Limits(bytes=0))
     first = finish(engine, submit(engine, "d" * 64, do="nothing"))
-    engine._housekeeping.evict()
+    engine._data._housekeeping.evict()
     assert (engine.result_path(first), evicted(tmp_path)) == (None, 1)
     again = finish(engine, submit(engine, "d" * 64, do="nothing"))
     assert again.work_id != first.work_id

@@ -20,6 +20,13 @@ def test_a_file_is_measured_in_a_child_that_leaves_nothing(measure, tmp_path):
     assert list((tmp_path / "data" / "assets").rglob("*.part")) == []
 
 
+def test_a_measurer_hears_what_a_file_is_called(engine, tmp_path):
+    path = tmp_path / "upload"
+    path.write_bytes(b"called")
+    assert engine.measure(path, 30.0, "model/mtl") == {"kind": "model/mtl"}
+    assert engine.measure(path, 30.0) == {"kind": ""}
+
+
 def test_a_refused_file_has_the_failure_of_its_measurer(measure):
     with pytest.raises(MeasuringError) as refusal:
         measure(b"refuse")

@@ -46,7 +46,7 @@ def test_work_goes_on_with_the_old_child_while_the_fresh_one_warms_up(
 ):
     engine = make_engine(recycle_after=2)
     do(engine, 1, do="nothing")
-    desk = engine._threads[0]._desk
+    desk = engine._crew._threads[0]._desk
     with desk.warming:  # nobody becomes warm as long as this is held
         do(engine, 6, do="nothing")
         assert len(set(pids())) == 1
@@ -73,9 +73,9 @@ def test_draining_leaves_no_replacement_behind(make_engine, do, pids):
     engine = make_engine(recycle_after=1)
     do(engine, 2, do="nothing")
     engine.drain(5)
-    assert all(not thread.is_alive() for thread in engine._threads)
-    assert engine._threads[0]._replacement is None or not (
-        engine._threads[0]._replacement.slot.is_alive()
+    assert all(not thread.is_alive() for thread in engine._crew._threads)
+    assert engine._crew._threads[0]._replacement is None or not (
+        engine._crew._threads[0]._replacement.slot.is_alive()
     )
 
 

@@ -350,6 +350,21 @@ def test_blended_pictures_in_tiles_are_the_picture(
     assert (error > 1e-3).mean() < 0.01  # samples on an edge, as in an opaque picture
 
 
+def test_layers_know_what_light_comes_through_but_not_what_it_is(studio: Studio) -> None:
+    scene = glass_scene(studio) | {"background": None}
+    names = ["coverage", "albedo", "object_id", "depth"]
+    solid = scene | {"nodes": scene["nodes"][:2]}
+
+    layers = studio.layers(scene, names, (60, 40), 2)
+    behind = studio.layers(solid, names, (60, 40), 2)
+
+    np.testing.assert_allclose(layers["picture"], studio.draw(scene, (60, 40), 2), atol=1e-6)
+    np.testing.assert_allclose(layers["coverage"], layers["picture"][..., 3:], atol=1e-6)
+    np.testing.assert_allclose(layers["albedo"], layers["picture"], atol=1e-6)  # all is unlit
+    np.testing.assert_array_equal(layers["object_id"], behind["object_id"])
+    np.testing.assert_array_equal(layers["depth"], behind["depth"])
+
+
 @pytest.mark.parametrize("bits", [8, 16])
 def test_a_png_has_straight_alpha_and_an_exr_premultiplied(
     studio: Studio, tmp_path: Path, bits: Any

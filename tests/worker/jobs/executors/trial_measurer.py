@@ -22,6 +22,8 @@ def run(request, out, report):
         time.sleep(60)
     if content == b"refuse":
         raise UnusableError
+    if content == b"called":
+        return {"kind": request["media_type"]}
     if content == b"scratch":
         out.write_bytes(b"scratch")
     return {"kind": "image", "size": len(content)}
