@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 
 from worker.rendering.chunks import Source, chunk, join
-from worker.rendering.shading import LookupLayout, Parameter, ShadingLayout
+from worker.rendering.shading_layout import LookupLayout, Parameter, ShadingLayout
 
 VERSION = "#version 410 core"
 _BY_OPACITY = {

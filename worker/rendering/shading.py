@@ -14,14 +14,20 @@ from typing import Any, Protocol, cast, get_args
 import numpy as np
 
 from api_schemas.coordinates.uv import UvSpec
-from api_schemas.families import AlphaMode, Meaning, SurfaceSpec, TextureSpec
+from api_schemas.families import Meaning, SurfaceSpec, TextureSpec
 from api_schemas.language import FAMILIES
-from api_schemas.maps import ColorMap, Filter, Map, NormalMap, NumberMap, TextureTransform
+from api_schemas.maps import ColorMap, Map, NormalMap, NumberMap, TextureTransform
 from worker.errors import RenderError
 from worker.images.pyramids import Cut
 from worker.rendering.chunks import chunk
 from worker.rendering.samplers import Sampling
-from worker.rendering.textures import Texture, TextureFormat
+from worker.rendering.shading_layout import (
+    LookupLayout,
+    Parameter,
+    PictureLayout,
+    ShadingLayout,
+)
+from worker.rendering.textures import Texture
 
 _STRUCT = re.compile(r"^struct Surface \{(?P<fields>.*?)^\};", re.MULTILINE | re.DOTALL)
 _FIELD = re.compile(r"^ +(?P<type>float|vec3|int) (?P<name>\w+);", re.MULTILINE)
@@ -40,71 +46,6 @@ class TextureSource(Protocol):
 
         With a cut, the levels have as many holes as the texture.
         """
-
-
-@dataclass(frozen=True, slots=True)
-class Parameter:
-    """One field of a surface. `lookup` is the index of the lookup it is read from, if mapped."""
-
-    name: str
-    type: str
-    lookup: int | None
-
-
-@dataclass(frozen=True, slots=True)
-class LookupLayout:
-    """One reading of a picture; parameters that share a lookup cost one.
-
-    Attributes:
-        coordinates: The technique that says where.
-        choices: Its parameters, in the order of its fields; they are constants of the program.
-        filter: How texels become a pixel.
-        picture: Which unit is read.
-    """
-
-    coordinates: str
-    choices: tuple[int, ...]
-    filter: Filter
-    picture: int
-
-
-@dataclass(frozen=True, slots=True)
-class PictureLayout:
-    """A texture unit: how it is read, and what the JIT knows about the texture."""
-
-    sampling: Sampling
-    format: TextureFormat
-
-
-@dataclass(frozen=True, slots=True)
-class ShadingLayout:
-    """What decides a program; equal layouts share a program object.
-
-    Attributes:
-        technique: The surface's.
-        parameters: In the order of its struct.
-        alpha_mode: Whether opacity is ignored, cuts holes, or lets through what is behind.
-        opacity: How it is read, unless it is ignored.
-        normal: The lookup that tilts the normal, if there is a normal map.
-        lookups: Readings of pictures.
-        pictures: Texture units of maps, then of tables.
-        tables: What the surface's own tables are called.
-    """
-
-    technique: str
-    parameters: tuple[Parameter, ...]
-    alpha_mode: AlphaMode
-    opacity: Parameter | None
-    normal: int | None
-    lookups: tuple[LookupLayout, ...]
-    pictures: tuple[PictureLayout, ...]
-    tables: tuple[str, ...]
-
-    @property
-    def samplers(self) -> tuple[str, ...]:
-        """The names of the texture units in the program."""
-        maps = len(self.pictures) - len(self.tables)
-        return (*(f"picture_{index}" for index in range(maps)), *self.tables)
 
 
 @dataclass(frozen=True, slots=True)
