@@ -23,6 +23,7 @@ FULL_BYTES = 4096
 """No file grows beyond this while the disk is "full": a limit that needs no rights to set."""
 
 UNTIL_READY_SECONDS = 180.0
+UNTIL_GONE_SECONDS = 30.0
 
 
 class FaultyService(RunningService):
@@ -102,16 +103,24 @@ class FaultyService(RunningService):
         if below:
             _kill(choose.choice(below))
 
-    def kill_and_restart(self) -> set[int]:
-        """Kill the service and start it again; answers which of its processes outlived it."""
+    def kill_and_restart(self) -> float | None:
+        """Kill the service and start it again.
+
+        Returns:
+            Seconds until none of its processes was left; None if one outlived it. Who was just
+            being started finds out on its first steps.
+        """
         before = self.processes()
         self.kill()
-        deadline = time.monotonic() + 5
-        while (orphans := before & self.processes()) and time.monotonic() < deadline:
+        began = time.monotonic()
+        while orphans := before & self.processes():
+            if time.monotonic() - began > UNTIL_GONE_SECONDS:
+                break
             time.sleep(0.01)
+        gone = None if orphans else time.monotonic() - began
         self.begin()
         self.wait_until_ready()
-        return orphans
+        return gone
 
     def fill_disk(self, seconds: float) -> None:
         """Have no file of the service and of its children grow for a while."""
