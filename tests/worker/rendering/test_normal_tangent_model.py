@@ -7,8 +7,8 @@ import pytest
 
 from api_schemas.textures.image import ImageSpec
 from tests.worker.rendering.studio import Studio
-from worker.models.formats import read_model
 from worker.images import image_io
+from worker.models.formats import read_model
 
 pytestmark = [pytest.mark.gl, pytest.mark.corpus]
 
