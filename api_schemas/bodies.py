@@ -31,6 +31,7 @@ class Body:
         pieces: Triangles, lines and points.
         draws: How many meshes with a material each these are.
         lights: How many lights it brings.
+        cameras: How many cameras it brings.
         pictures: Whether its own materials wear pictures.
         middle: Of a ball that holds it, in its own frame.
         reach: That ball's radius.
@@ -41,6 +42,7 @@ class Body:
     pieces: int
     draws: int
     lights: int
+    cameras: int
     pictures: bool
     middle: Vector3
     reach: float
@@ -56,6 +58,7 @@ def body(mesh: Mesh, facts: Mapping[str, AssetFacts]) -> Body | None:
             pieces=count,
             draws=1,
             lights=0,
+            cameras=0,
             pictures=False,
             middle=(0, 0, 0),
             reach=mesh.reach,
@@ -85,6 +88,7 @@ def body(mesh: Mesh, facts: Mapping[str, AssetFacts]) -> Body | None:
         pieces=pieces,
         draws=found.draws,
         lights=found.lights,
+        cameras=len(found.cameras),
         pictures=texels > 0,
         middle=(
             low[0] / 2 + high[0] / 2,

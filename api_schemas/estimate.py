@@ -16,13 +16,12 @@ from api_schemas.bodies import (
     Body,
     body,
 )
-from api_schemas.camera import Camera, FramedCamera, PosedCamera
+from api_schemas.camera import Camera, FramedCamera, ModelCamera, PosedCamera
 from api_schemas.cost import Cost
 from api_schemas.coverage import coverage, stand_in
 from api_schemas.families import SurfaceSpec, TextureSpec
 from api_schemas.geometry import IDENTITY, Affine, Vector3, affine
 from api_schemas.maps import ColorMap, NormalMap, NumberMap
-from api_schemas.model_mesh import ModelMesh
 from api_schemas.output_cost import samples_of, sampling, tiles_of, writing
 from api_schemas.requests import RenderRequest, Request
 from api_schemas.scene import Node
@@ -146,9 +145,10 @@ def _known_camera(camera: Camera | None, drawn: Sequence[_Drawn], aspect: float)
     """Return the eye, or one about where it will be, unless an uploaded model brings it."""
     if isinstance(camera, PosedCamera):
         return camera
-    if any(isinstance(node.mesh, ModelMesh) for node, _, _ in drawn) and camera is None:
+    brought = any(found.cameras for _, _, found in drawn)
+    if isinstance(camera, ModelCamera) or (camera is None and brought):
         return None
-    framed = camera if isinstance(camera, FramedCamera) else FramedCamera(type="framed")
+    framed = camera or FramedCamera(type="framed")
     return stand_in(framed, [(found.reach, at) for _, at, found in drawn], aspect)
 
 

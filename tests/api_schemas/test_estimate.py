@@ -309,6 +309,16 @@ def test_as_many_framed_boxes_as_there_may_be_are_let_in():
     assert cost.seconds < 4 * estimate(boxes(256), {}).seconds
 
 
+def test_models_share_the_picture_unless_one_of_them_brings_the_camera():
+    def seconds(count, **known):
+        _, facts = model(**known)
+        mesh = {"type": "model", "asset": "d" * 64}
+        return estimate(boxes(count, mesh=mesh), facts).seconds
+
+    assert seconds(1024) < 4 * seconds(256)
+    assert seconds(1024, cameras=["", "above"]) > 10 * seconds(1024)
+
+
 def test_what_lets_light_through_costs_more():
     glass = json.loads(json.dumps(CAN))
     for node in glass["scene"]["nodes"]:
