@@ -21,6 +21,7 @@ from api_schemas.cost import Cost
 from api_schemas.coverage import coverage, stand_in
 from api_schemas.families import SurfaceSpec, TextureSpec
 from api_schemas.geometry import IDENTITY, Affine, Vector3, affine
+from api_schemas.lights import LIGHTS_MAX
 from api_schemas.maps import ColorMap, NormalMap, NumberMap
 from api_schemas.output_cost import samples_of, sampling, tiles_of, writing
 from api_schemas.requests import RenderRequest, Request
@@ -90,7 +91,7 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
     ]
     camera = _known_camera(scene.camera, drawn, width / height)
     shining = (
-        max(LIGHTS_OF_A_STUDIO, sum(found.lights for _, _, found in drawn))
+        min(LIGHTS_MAX, max(LIGHTS_OF_A_STUDIO, sum(found.lights for _, _, found in drawn)))
         if scene.lights is None
         else len(scene.lights)
     )

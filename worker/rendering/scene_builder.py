@@ -1,5 +1,6 @@
 """From a request's scene to drawables: nodes placed, meshes and textures uploaded or found."""
 
+import itertools
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
@@ -127,6 +128,7 @@ class SceneBuilder:
             for item, mesh in zip(placed, kept, strict=True)
         )
         view = view_of(scene.camera, models, vertices, aspect)
+        lights, left_out = lights_of(scene.lights, models, view.world_from_camera)
         background = self._background(scene.background, maker)
         shadings = [drawable.shading for drawable in drawables]
         if isinstance(background, Shading):
@@ -140,11 +142,11 @@ class SceneBuilder:
             drawables=tuple(drawables),
             view=view,
             background=background,
-            lights=tuple(lights_of(scene.lights, models, view.world_from_camera)),
+            lights=tuple(lights),
             triangles=sum(len(mesh.elements) for mesh in kept),
             texels=sum(texture.width * texture.height for texture in pictures.values()),
             warnings=tuple(
-                dict.fromkeys(warning for item in models for warning in item.model.warnings)
+                dict.fromkeys(itertools.chain(*(item.model.warnings for item in models), left_out))
             ),
         )
 

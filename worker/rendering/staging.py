@@ -11,7 +11,14 @@ from api_schemas.camera import (
     OrthographicCamera,
     PerspectiveCamera,
 )
-from api_schemas.lights import AmbientLight, DirectionalLight, Light, PointLight, SpotLight
+from api_schemas.lights import (
+    LIGHTS_MAX,
+    AmbientLight,
+    DirectionalLight,
+    Light,
+    PointLight,
+    SpotLight,
+)
 from worker.errors import RenderError
 from worker.geometry.transforms import Matrix, clip_from_camera, orthonormal, world_from_camera
 from worker.models.model import Model, NamedCamera
@@ -61,14 +68,19 @@ def view_of(
 
 def lights_of(
     lights: Sequence[Light] | None, models: Sequence[PlacedModel], world_from_camera: Matrix
-) -> list[Light]:
-    """Return what shines, in world axes."""
+) -> tuple[Sequence[Light], Sequence[str]]:
+    """Return what shines, in world axes, and what there is to warn of.
+
+    One model brings no more lights than a shader has room for; many together may.
+    """
     if lights is not None:
-        return list(lights)
+        return lights, ()
     brought = [
         _in_world(light, item.world_from_model) for item in models for light in item.model.lights
     ]
-    return brought or lamp(world_from_camera)
+    if len(brought) > LIGHTS_MAX:
+        return brought[:LIGHTS_MAX], (f"only the first {LIGHTS_MAX} lights shine",)
+    return brought or lamp(world_from_camera), ()
 
 
 def _view_of_model(camera: ModelCamera, models: Sequence[PlacedModel], aspect: float) -> View:

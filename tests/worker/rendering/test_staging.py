@@ -105,10 +105,17 @@ def test_a_camera_that_no_model_has_is_told() -> None:
     assert (error.value.code, error.value.pointer) == ("model_part_unknown", "/scene/camera")
 
 
-def lights(given: Any, models: Any) -> list[Light]:
+def staged(given: Any, models: Any) -> tuple[list[Light], list[str]]:
     from worker.rendering.staging import lights_of  # noqa: PLC0415  needs OpenGL
 
-    return lights_of(given, models, IDENTITY)
+    found, warnings = lights_of(given, models, IDENTITY)
+    return list(found), list(warnings)
+
+
+def lights(given: Any, models: Any) -> list[Light]:
+    found, warnings = staged(given, models)
+    assert not warnings
+    return found
 
 
 def test_lights_of_the_request_replace_those_of_models_and_none_at_all_is_dark() -> None:
@@ -137,6 +144,18 @@ def test_lights_of_a_model_turn_and_move_with_it() -> None:
     assert sun.direction == pytest.approx([0, 0, -1])
     assert spot.position == pytest.approx([7, 1, 0])
     assert spot.direction == pytest.approx([1, 0, 0])
+
+
+def test_many_models_bring_no_more_lights_than_a_request_and_that_is_told() -> None:
+    """A shader has room for 32, as a request has."""
+    lamps = [PointLight(type="point", position=[float(x), 0, 0]) for x in range(4)]
+    models = [placed(model(lights=lamps), moved(10.0 * index, 0, 0)) for index in range(9)]
+
+    found, warnings = staged(None, models)
+
+    assert len(lights(None, models[:8])) == 32
+    assert found == lights(None, models[:8])
+    assert warnings == ["only the first 32 lights shine"]
 
 
 def test_where_nothing_shines_a_lamp_stands_behind_the_eye() -> None:
