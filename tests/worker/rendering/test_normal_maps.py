@@ -254,6 +254,17 @@ def test_points_take_no_notice_of_a_normal_map(studio: Studio) -> None:
     np.testing.assert_allclose(seen[4, 4], [0.6, 0.0, 0.8], atol=TOLERANCE)
 
 
+def test_points_without_normals_show_their_colour_under_a_normal_map(studio: Studio) -> None:
+    # glTF 2.0, section 3.7.2.1: points and lines without normals are not lit
+    surface = {"technique": "phong", "normal": constant(studio, TILT, range="signed")}
+    node = {"mesh": studio.mesh(points_that_face([0.0, 0.0, 0.0])), "surface": surface}
+    camera = {"type": "orthographic", "height": 2.0, "pose": {"eye": [0.0, 0.0, 2.0]}}
+
+    drawn = studio.draw({"camera": camera, "lights": lights(1.0), "nodes": [node]}, (16, 16))
+
+    np.testing.assert_allclose(drawn[4, 4, :3], 0.8 * np.array([1.0, 0.5, 0.25]), rtol=1e-6)
+
+
 def test_on_a_ball_the_axes_are_those_of_longitude_and_latitude(studio: Studio) -> None:
     side = 32
     node = {"mesh": {"type": "sphere", "segments": 512, "rings": 256}}
