@@ -37,7 +37,8 @@ class Accessors:
         """
         accessor = self._document.accessors[index]
         raw = self.raw(index, rows)
-        values = raw.astype(np.float64)
+        with np.errstate(invalid="ignore"):  # a NaN may be a signalling one
+            values = raw.astype(np.float64)
         if raw.dtype.kind == "f":
             good = np.isfinite(values)
             if not good.all():

@@ -127,6 +127,15 @@ def test_numbers_that_are_none_are_refused_where_they_stand(bad: float) -> None:
     assert refused(builder).message == "/accessors/0: element 1 is not finite"
 
 
+def test_a_signalling_nan_is_one_more_that_is_not_finite() -> None:
+    """numpy warns of it when it becomes a float64."""
+    builder = Builder()
+    builder.accessor(np.zeros((2, 3), "<f4"))
+    builder.binary[-4:] = struct.pack("<I", 0x7F800001)
+
+    assert refused(builder).message == "/accessors/0: element 1 is not finite"
+
+
 @pytest.mark.parametrize(
     ("change", "word"),
     [
