@@ -115,8 +115,8 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
             cost += textures.cost(worn)
         own = MAPS_OF_A_MATERIAL * found.pictures * SECONDS_PER_MAP_SAMPLE["anisotropic"]
         shading = lighting + max([own, *map(_seconds_per_sample, maps)])
-        # The parts of one model hide each other: few are seen one behind the other.
-        covered = math.sqrt(found.draws)
+        # The parts of one model fill the ball side by side as well as one behind the other.
+        covered = math.cbrt(found.draws)
         covered *= coverage(found.reach, placed, camera, width / height)
         if any(surface.alpha_mode == "blend" for surface in surfaces):
             covered *= 2  # what is behind its front is shaded too
