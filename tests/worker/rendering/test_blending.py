@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from tests.run_example import run_example
+from tests.whole_pictures import encode_exr, encode_png
 from tests.worker.rendering.panes import (
     BLUE,
     CAMERA,
@@ -170,8 +171,8 @@ def test_a_png_has_straight_alpha_and_an_exr_premultiplied(
     drawn = Image(studio.draw({"camera": CAMERA, "nodes": nodes}, (4, 4)), "colour")
     png, exr = tmp_path / "p.png", tmp_path / "p.exr"
 
-    image_io.encode_png(drawn, png, bits=bits, transfer="linear")
-    image_io.encode_exr({"": drawn}, exr, pixel_type="float", digest="", version="")
+    encode_png(drawn, png, bits=bits, transfer="linear")
+    encode_exr({"": drawn}, exr, pixel_type="float", digest="", version="")
 
     # Over each other: (1, .5, 0) / 4 + (0, .5, 1) / 2, with 3/4 of coverage.
     light = np.array([0.25, 0.375, 0.5])
