@@ -16,7 +16,7 @@ from api_schemas.bodies import (
     Body,
     body,
 )
-from api_schemas.camera import Camera, FramedCamera, PosedCamera
+from api_schemas.camera import Camera, FramedCamera, ModelCamera, PosedCamera
 from api_schemas.cost import Cost
 from api_schemas.coverage import coverage, stand_in
 from api_schemas.families import SurfaceSpec, TextureSpec
@@ -146,7 +146,8 @@ def _known_camera(camera: Camera | None, drawn: Sequence[_Drawn], aspect: float)
     """Return the eye, or one about where it will be, unless an uploaded model brings it."""
     if isinstance(camera, PosedCamera):
         return camera
-    if any(isinstance(node.mesh, ModelMesh) for node, _, _ in drawn) and camera is None:
+    brings = any(isinstance(node.mesh, ModelMesh) for node, _, _ in drawn)
+    if isinstance(camera, ModelCamera) or (camera is None and brings):
         return None
     framed = camera if isinstance(camera, FramedCamera) else FramedCamera(type="framed")
     return stand_in(framed, [(found.reach, at) for _, at, found in drawn], aspect)

@@ -5,6 +5,7 @@ import json
 from api_schemas.assets import ASSET_FACTS, ImageFacts
 from api_schemas.estimate import estimate
 from api_schemas.requests import RenderRequest
+from api_schemas.transforms import Placement
 from tests.examples import examples
 from tests.model_facts import model_facts
 
@@ -112,6 +113,22 @@ def test_a_model_far_from_its_origin_is_seen_where_it_is():
 
     assert before > 1.05 * before_and_far
     assert before > 1.05 * behind
+
+
+def test_an_eye_that_a_model_brings_may_see_one_thing_alone():
+    def seconds(camera):
+        request, facts = model(count=2, camera=camera)
+        far = {"transform": Placement(translation=[500.0, 0.0, 0.0])}
+        nodes = [request.scene.nodes[0], request.scene.nodes[1].model_copy(update=far)]
+        scene = request.scene.model_copy(update={"nodes": nodes})
+        output = request.output.model_copy(update={"size": [2048, 2048]})
+        changes = {"scene": scene, "output": output}
+        return estimate(request.model_copy(update=changes), facts).seconds
+
+    brought = {"type": "model"}
+
+    assert seconds(brought) == seconds(None)
+    assert seconds(brought) > 1.2 * seconds({"type": "framed"})
 
 
 def test_a_model_of_nothing_and_one_without_facts_are_cheap():
