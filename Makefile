@@ -10,7 +10,7 @@ gl := export TEXLOOM_GL="$$(docker/install.sh gl)"
 pytest := $(python) -m pytest -n 2 --dist loadfile --timeout 300
 
 .DEFAULT_GOAL := help
-.PHONY: help run test test-all check fix bench faults gallery lock clean installed
+.PHONY: help run test test-all check fix bench faults soak gallery lock clean installed
 
 help:
 	@echo 'Texloom: describe a texture or a scene in JSON, get back a picture.'
@@ -52,6 +52,9 @@ bench: installed ## measure, and write tests/benchmarks/RESULTS.md
 
 faults: installed ## run jobs while processes are killed and the disk fills, and count what is lost
 	@$(gl); TEXLOOM_DATA=.cache docker/install.sh warm && $(python) -m tests.faults
+
+soak: installed ## keep a service busy for twenty minutes, and watch its memory and open files
+	@$(gl); TEXLOOM_DATA=.cache docker/install.sh warm && $(python) -m tests.soak
 
 gallery: installed ## draw every example anew
 	@$(gl); $(python) -m tests.gallery

@@ -103,8 +103,8 @@ class Settings(BaseSettings):
         "never removed but by DELETE, since nobody else could bring them back.",
     )
     measure_limit_seconds: Annotated[float, Field(gt=0)] = Field(
-        default=20.0,
-        description="Time to look into an upload. Ten times what the largest picture takes.",
+        default=60.0,
+        description="Time to look into an upload. Several times what the largest model takes.",
     )
     wait_seconds: Annotated[int, Field(ge=0, le=60)] = Field(
         default=30,

@@ -4,7 +4,7 @@ import shutil
 from pathlib import Path
 from typing import Any
 
-from api_schemas.assets import ImageFacts
+from api_schemas.assets import ASSET_FACTS, AssetFacts
 from api_schemas.digest import digest
 from api_schemas.normalise import normalise
 from api_schemas.requests import REQUESTS
@@ -18,7 +18,7 @@ def run_example(name: str, out: Path, assets: Path, **output: Any) -> dict[str, 
     Args:
         name: The example's file name without its ending.
         out: Where the picture goes.
-        assets: A folder for the uploaded pictures of all examples.
+        assets: A folder for the uploads of all examples.
         **output: Fields of the request's `output`, `format` at least.
     """
     facts = {asset: _upload(path, asset, assets) for path in ASSETS for asset in [sha256(path)]}
@@ -34,12 +34,13 @@ def run_example(name: str, out: Path, assets: Path, **output: Any) -> dict[str, 
     return run_job.run(order, out, _unreported)
 
 
-def _upload(path: Path, asset: str, folder: Path) -> ImageFacts:
+def _upload(path: Path, asset: str, folder: Path) -> AssetFacts:
     stored = folder / asset[:2] / asset
     stored.parent.mkdir(parents=True, exist_ok=True)
     shutil.copy(path, stored)
     measured = measure_asset.run({"path": str(stored)}, folder / "unused", _unreported)
-    return ImageFacts(**measured, sha256=asset, bytes=path.stat().st_size)
+    known = {"sha256": asset, "bytes": path.stat().st_size}
+    return ASSET_FACTS.validate_python(measured | known)
 
 
 def _unreported(_share: float, _stage: str) -> None:

@@ -7,7 +7,19 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
-VERBS = ["run", "test", "test-all", "check", "fix", "bench", "faults", "gallery", "lock", "clean"]
+VERBS = [
+    "run",
+    "test",
+    "test-all",
+    "check",
+    "fix",
+    "bench",
+    "faults",
+    "soak",
+    "gallery",
+    "lock",
+    "clean",
+]
 
 
 def test_make_alone_lists_the_verbs_and_what_they_do() -> None:

@@ -13,6 +13,7 @@ pytestmark = [pytest.mark.end_to_end, pytest.mark.gl]
 GLOW = {
     "scene": {
         "camera": {"type": "orthographic", "height": 1.0, "pose": {"eye": [0, 0, 2]}},
+        "lights": [],
         "nodes": [
             {"mesh": {"type": "plane"}, "surface": {"technique": "phong", "emission": [4.0, 1, 0]}}
         ],

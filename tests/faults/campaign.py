@@ -105,10 +105,15 @@ class Campaign:
         return Report(self._seed, len(jobs), seconds, states, self._recoveries, self._complaints)
 
     def _submit(self, requests: Sequence[Asked]) -> None:
-        """Ask for things, evenly over the time that the faults take; insist until accepted."""
+        """Ask for things, evenly over the time that the faults take; insist until accepted.
+
+        There is always something unfinished: how else would one see that it goes on?
+        """
         for number, asked in enumerate(requests):
             share = number / len(requests)
-            while self._done_faults < share * len(self._faults) - 1:
+            while self._done_faults < share * len(self._faults) - 1 and (
+                len(self._finished_at) < len(self._accepted)
+            ):
                 time.sleep(0.02)
             while (job := self._try_to_submit(asked)) is None:
                 time.sleep(0.1)

@@ -73,7 +73,7 @@ def lamp(pose: Matrix) -> list[Light]:
     """Give the light of a studio: a lamp over the eye's right shoulder, and a bright room.
 
     White by Phong's formula is then just white in the picture, and white that divides by pi is
-    four fifths as bright to the eye.
+    seven tenths as bright to the eye.
 
     Args:
         pose: The eye's frame: world_from_camera.
@@ -81,8 +81,8 @@ def lamp(pose: Matrix) -> list[Light]:
     right, up, back = pose[:3, :3].T
     travel = -(0.4 * right + 0.6 * up + back)
     return [
-        AmbientLight(type="ambient", radiance=[0.3, 0.3, 0.3]),
-        DirectionalLight(type="directional", direction=travel.tolist(), irradiance=1.0),
+        AmbientLight(type="ambient", radiance=[0.2, 0.2, 0.2]),
+        DirectionalLight(type="directional", direction=travel.tolist(), irradiance=0.8),
     ]
 
 
