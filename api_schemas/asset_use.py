@@ -98,10 +98,11 @@ def _camera(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Iterator
     camera = request.scene.camera
     if not isinstance(camera, ModelCamera):
         return
-    models = [facts.get(part.asset) for _, part in parts(request) if isinstance(part, ModelMesh)]
+    meshes = [part for _, part in parts(request) if isinstance(part, ModelMesh)]
+    models = [facts.get(mesh.asset) for mesh in meshes if mesh.scene is None]
     known = [model.cameras for model in models if isinstance(model, ModelFacts)]
-    if len(known) < len(models):
-        return
+    if len(known) < len(meshes):
+        return  # facts tell the cameras of a model's default scene only
     if not any(known):
         message = "no model of the scene brings a camera"
         yield Obstacle("model_part_unknown", "/scene/camera", message)

@@ -54,11 +54,11 @@ class ModelFacts(_Facts):
     has_vertex_colors: bool = Field(description="Whether its vertices have colours.")
     materials: Names = Field(description="Its materials by index; an empty name where it has none.")
     nodes: Names = Field(description="Its nodes by index.")
-    cameras: Names = Field(description="Its cameras by index.")
+    cameras: Names = Field(description="The cameras of its default scene by index.")
     scenes: Count = Field(
         default=0, description="How many scenes it has; without any, all of it is drawn."
     )
-    lights: Count = Field(description="How many lights it brings.")
+    lights: Count = Field(description="How many lights its default scene brings.")
     texels: Count = Field(description="Pixels of the pictures inside it.")
     files: Names = Field(description="Names of the files it needs beside it.")
     warnings: Names = Field(description="What it asks for and will not get.")

@@ -27,7 +27,7 @@ class Result(Schema):
         default={}, description="Where the time went: milliseconds by step."
     )
     counts: dict[str, Annotated[int, Field(ge=0)]] = Field(
-        default={}, description="What was drawn: triangles, programs compiled and so on."
+        default={}, description="What was drawn: triangles, and texels of textures."
     )
     warnings: list[Annotated[str, Field(max_length=1024)]] = Field(
         default=[], description="What in the uploads could not be honoured, and was left out."

@@ -48,7 +48,8 @@ class Scene(Schema):
     lights: Annotated[list[Light], Field(max_length=LIGHTS_MAX)] | None = Field(
         default=None,
         description="What shines: nothing if empty, so that only emission and unlit surfaces show. "
-        "Without the list, the lights that models bring, else a lamp behind the eye.",
+        "Without the list, the lights that models bring, else those of a studio: a lamp over the "
+        "eye's shoulder in a bright room.",
     )
     background: MappableColor | None = Field(
         default=None,

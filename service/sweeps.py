@@ -52,7 +52,7 @@ def variations(body: SweptBatch) -> Iterator[Variation]:
     axes = body.sweep.axes
     full = body.request.model_dump(mode="json")
     paths = [_path(axis.pointer) for axis in axes]
-    _require_there(axes, paths, full)
+    _require_there(paths, full)
     written = body.request.model_dump(mode="json", exclude_unset=True)
     for number, choice in enumerate(_choices(body)):
         value = written
@@ -93,7 +93,7 @@ def _path(pointer: str) -> tuple[str, ...]:
     )
 
 
-def _require_there(axes: Sequence[Axis], paths: Sequence[tuple[str, ...]], full: Any) -> None:
+def _require_there(paths: Sequence[tuple[str, ...]], full: Any) -> None:
     for index, path in enumerate(paths):
         if not _leads_somewhere(full, path):
             raise ProblemError(

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from tests.whole_pictures import encode_exr, encode_png
 from worker.images import image_io
 from worker.images.image import Image
 
@@ -109,7 +110,7 @@ def _leave_evidence(actual: Image, expected: Image, folder: Path) -> None:
         visible = image
         if name == "difference" and image.pixels.max() > 0:
             visible = Image(image.pixels / image.pixels.max(), "data")
-        image_io.encode_png(
+        encode_png(
             visible,
             folder / f"{name}.png",
             bits=8,
@@ -119,4 +120,4 @@ def _leave_evidence(actual: Image, expected: Image, folder: Path) -> None:
 
 def _write_exr(image: Image, path: Path) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
-    image_io.encode_exr({"": image}, path, pixel_type="float", digest="", version="")
+    encode_exr({"": image}, path, pixel_type="float", digest="", version="")

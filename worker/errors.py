@@ -3,9 +3,9 @@
     Exception
     └── WorkerError             code, message, pointer
         ├── UnusableAssetError  asset_unusable | asset_unsupported | asset_too_large
-        ├── AssetMissingError   asset_missing
+        ├── AssetMissingError   asset_missing | asset_file_missing
         └── RenderError         render_failed | camera_degenerate | light_degenerate
-                                | transform_singular
+                                | transform_singular | model_part_unknown
 
 A message says what is wrong, which value and which bound; it never repeats the input.
 `as_failure` is how an error crosses processes: as data, never as a pickled exception.
@@ -51,12 +51,12 @@ class UnusableAssetError(WorkerError):
 
 
 class AssetMissingError(WorkerError):
-    """A request names an asset that is not stored."""
+    """A request names an asset that is not stored, or a model a file that is not in its set."""
 
     default_code = "asset_missing"
 
 
 class RenderError(WorkerError):
-    """Drawing or synthesis failed on a request that looked possible."""
+    """A request that looked possible cannot be drawn or synthesised."""
 
     default_code = "render_failed"

@@ -5,7 +5,7 @@ from typing import Any, Final
 from worker.errors import UnusableAssetError
 from worker.models.formats import ModelFormat, model_format, outline
 from worker.models.limits import WARNINGS_MAX
-from worker.models.obj import mtl as mtl
+from worker.models.obj import mtl
 from worker.models.pictures import measure
 
 BUFFER_TYPE: Final = "application/gltf-buffer"

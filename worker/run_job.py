@@ -21,7 +21,7 @@ from worker.models import formats as models
 from worker.rendering import renderer
 from worker.rendering.packing import PICTURE
 from worker.rendering.scene_builder import TextureMaker
-from worker.stages import Report, Stages, Watch
+from worker.stages import Report, Stages, Timed
 from worker.uploaded_models import UploadedModels
 from worker.uploaded_pictures import UploadedPictures
 
@@ -71,7 +71,7 @@ def run(request: dict[str, Any], out: Path, report: Report) -> dict[str, Any]:
             drawn = renderer.render(
                 body.scene, body.output, _maker(pictures.read), uploads.read, progress
             )
-            bands = Watch(drawn.bands)
+            bands = Timed(drawn.bands)
             start = time.perf_counter()
             media_type = result_file.write(bands, body.output, request["digest"], out)
             encoding = 1000 * (time.perf_counter() - start - bands.seconds)

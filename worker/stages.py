@@ -10,7 +10,7 @@ Report = Callable[[float, str], None]
 """Told the share of something that is done, 0..1, and the name of its stage."""
 
 
-class Watch(Generic[T]):
+class Timed(Generic[T]):
     """Passes things on and adds up the time it takes to make them.
 
     Attributes:

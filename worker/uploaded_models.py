@@ -26,7 +26,9 @@ class UploadedModels:
         """Decode a model with the files beside it, or find it decoded.
 
         Raises:
-            AssetMissingError: A file is not stored.
+            AssetMissingError: A file is not stored, or not in the model's set
+                (`asset_file_missing`).
+            RenderError: It has no such scene (`model_part_unknown`).
             UnusableAssetError: A file is damaged, or asks for what there is not.
         """
         key = (mesh.asset, tuple(sorted(mesh.files.items())), mesh.scene)

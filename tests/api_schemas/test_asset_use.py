@@ -191,6 +191,14 @@ def test_a_models_camera_has_to_be_there(cameras, wanted, pointer):
     assert problems == ([("model_part_unknown", pointer)] if pointer else [])
 
 
+def test_a_camera_may_be_in_the_scene_that_is_asked_for_instead_of_the_default_one():
+    facts = known(model=model_facts(scenes=2, cameras=[]))
+
+    for camera in (None, "eye", 1):
+        request = scene({"scene": 1}, camera={"type": "model", "camera": camera})
+        assert found(request, facts) == []
+
+
 def test_a_camera_of_any_model_will_do_and_a_scene_without_models_has_none():
     nodes = [{"mesh": {"type": "model", "asset": name}} for name in (MODEL, FIRST)]
     body = {"scene": {"nodes": nodes, "camera": {"type": "model", "camera": "eye"}}}

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from tests.whole_pictures import encode_exr, encode_png
 from worker.images.image import Image
-from worker.images.image_io import encode_exr, encode_png
 
 REPEATS = 9
 

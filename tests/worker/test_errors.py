@@ -1,7 +1,10 @@
+import ast
 import json
+from pathlib import Path
 
 import pytest
 
+import worker.errors
 from worker.errors import (
     AssetMissingError,
     RenderError,
@@ -25,6 +28,27 @@ def test_every_error_has_its_own_code_and_crosses_processes_as_data(
 
     assert failure == {"code": code, "message": "9 is above 8", "pointer": "/output/size/0"}
     assert json.loads(json.dumps(failure)) == failure
+
+
+def test_the_tree_names_every_code_that_the_worker_raises() -> None:
+    """Found by reading: a code is a keyword of an error, or the default of its class."""
+    root = Path(worker.errors.__file__).parent
+    calls = [
+        node
+        for path in root.rglob("*.py")
+        for node in ast.walk(ast.parse(path.read_text()))
+        if isinstance(node, ast.Call)
+    ]
+    raised = {
+        keyword.value.value
+        for call in calls
+        for keyword in call.keywords
+        if keyword.arg == "code" and isinstance(keyword.value, ast.Constant)
+    }
+    tree = (worker.errors.__doc__ or "").replace("|", " ").split()
+
+    assert "asset_file_missing" in raised
+    assert raised <= set(tree)
 
 
 def test_one_class_may_carry_a_narrower_code() -> None:

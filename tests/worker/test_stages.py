@@ -3,7 +3,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from worker.stages import Watch
+from worker.stages import Timed
 
 
 def slow() -> Iterator[int]:
@@ -12,23 +12,23 @@ def slow() -> Iterator[int]:
         yield number
 
 
-def test_a_watch_counts_the_time_of_making_and_not_of_using() -> None:
-    watch = Watch(slow())
+def test_it_counts_the_time_of_making_and_not_of_using() -> None:
+    timed = Timed(slow())
 
-    for _ in watch:
+    for _ in timed:
         time.sleep(0.1)
 
-    assert 0.06 <= watch.seconds < 0.2
+    assert 0.06 <= timed.seconds < 0.2
 
 
-def test_a_watch_counts_what_was_made_in_vain_too() -> None:
+def test_it_counts_what_was_made_in_vain_too() -> None:
     def broken() -> Iterator[int]:
         time.sleep(0.02)
         raise ValueError("no more")
         yield 0
 
-    watch = Watch(broken())
+    timed = Timed(broken())
     with pytest.raises(ValueError, match="no more"):
-        next(watch)
+        next(timed)
 
-    assert watch.seconds >= 0.02
+    assert timed.seconds >= 0.02

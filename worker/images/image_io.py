@@ -115,27 +115,6 @@ def read(path: Path, transfer: Transfer, meaning: Meaning, *, alpha: bool = True
     return Image(turn(place(pixels, header.data, header.display), header.orientation), meaning)
 
 
-def encode_png(
-    image: Image,
-    path: Path,
-    *,
-    bits: PngBits,
-    transfer: Transfer,
-    exposure: float = 0.0,
-    tone_curve: ToneCurve = "none",
-) -> None:
-    """Write a whole picture as `write_png` writes one in bands."""
-    write_png(
-        [image],
-        image.height,
-        path,
-        bits=bits,
-        transfer=transfer,
-        exposure=exposure,
-        tone_curve=tone_curve,
-    )
-
-
 def write_png(
     bands: Iterable[Image],
     height: int,
@@ -175,24 +154,6 @@ def write_png(
         file.write(codes)
         for image in rest:
             file.write(display_codes(image, bits, transfer, exposure, tone_curve))
-
-
-def encode_exr(
-    layers: Mapping[str, Image],
-    path: Path,
-    *,
-    pixel_type: ExrType,
-    digest: str,
-    version: str,
-) -> None:
-    """Write whole pictures as `write_exr` writes them in bands.
-
-    Raises:
-        ValueError: The layers are none, or of different sizes.
-        OSError: The file cannot be written.
-    """
-    height = max((image.height for image in layers.values()), default=0)
-    write_exr([layers], height, path, pixel_type=pixel_type, digest=digest, version=version)
 
 
 def write_exr(

@@ -1,13 +1,11 @@
 """A batch as its caller sees it: many jobs that were asked for at once."""
 
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import Any
 
 from worker.errors import Failure
 from worker.jobs.intake import Request
 from worker.jobs.job import State
-
-MOST_ITEMS: Final = 1000
 
 
 @dataclass(frozen=True, slots=True)

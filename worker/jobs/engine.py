@@ -89,6 +89,7 @@ class EmbeddedEngine:
             tenant_limit=tenant_queue_limit,
             slots=slots,
             run_times=self._run_times,
+            meters=self.meters,
         )
         self._requests = Requests(
             database, room=room, meters=self.meters, is_reusable=self._is_reusable

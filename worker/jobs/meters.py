@@ -34,7 +34,7 @@ class Meters:
         )
         self._refused = Counter(
             "texloom_jobs_refused",
-            "Jobs refused for want of room.",
+            "Work refused for want of room: a job's, or all that is new in a batch.",
             ("why",),
             registry=self.registry,
         )
@@ -60,9 +60,9 @@ class Meters:
         """Count a job that was accepted."""
         self._submitted.labels(priority, found).inc()
 
-    def refused(self, why: str) -> None:
-        """Count a job for which there was no room."""
-        self._refused.labels(why).inc()
+    def refused(self, why: str, count: int) -> None:
+        """Count work for which there was no room."""
+        self._refused.labels(why).inc(count)
 
     def began(self, claim: Claim) -> None:
         """Time the wait of work that begins for the first time."""

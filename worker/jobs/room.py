@@ -10,6 +10,7 @@ from sqlalchemy import Connection, func, select
 
 from worker.jobs.errors import QueueFullError, TenantFullError
 from worker.jobs.job import PRIORITIES, Priority
+from worker.jobs.meters import Meters
 from worker.jobs.run_times import RunTimes
 from worker.jobs.schema import work
 from worker.jobs.turns import BATCH, slots_for
@@ -32,15 +33,23 @@ class Room:
         tenant_limit: how much of it may be one tenant's.
         slots: how much work is done at a time.
         run_times: how long it takes.
+        meters: hear what was refused.
     """
 
     def __init__(
-        self, *, queue_limit: int, tenant_limit: int, slots: int, run_times: RunTimes
+        self,
+        *,
+        queue_limit: int,
+        tenant_limit: int,
+        slots: int,
+        run_times: RunTimes,
+        meters: Meters,
     ) -> None:
         self._queue_limit = queue_limit
         self._tenant_limit = tenant_limit
         self._slots = slots
         self._run_times = run_times
+        self._meters = meters
 
     def require(self, connection: Connection, tenant: str, priority: Priority) -> None:
         """Refuse more work than may wait.
@@ -54,9 +63,11 @@ class Room:
         # A place becomes free when work begins, which is when other work ends.
         seconds = self._run_times.typical() / slots
         if waiting.get(tenant, 0) >= self._tenant_limit:
+            self._meters.refused("tenant_queue_full", 1)
             # Tenants take turns, so one of its own begins only every so many times.
             raise TenantFullError(waiting.get(tenant, 0), _whole(seconds * max(1, len(waiting))))
         if (everything := sum(waiting.values())) >= self._queue_limit:
+            self._meters.refused("queue_full", 1)
             raise QueueFullError(everything, _whole(seconds))
 
     def require_for_batch(self, connection: Connection, count: int) -> None:
@@ -70,6 +81,7 @@ class Room:
         excess = waiting + count - IN_BATCHES
         if count and excess > 0:
             seconds = excess * self._run_times.typical() / slots_for(BATCH, self._slots)
+            self._meters.refused("batches_full", count)
             raise QueueFullError(waiting, _whole(seconds))
 
 

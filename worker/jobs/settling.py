@@ -72,7 +72,7 @@ def _publish(
     results = desk.results
     try:
         results.settle(half)
-        desk.claims.succeed(
+        accepted = desk.claims.succeed(
             claim,
             outcome.facts or {},
             fingerprint,
@@ -86,7 +86,7 @@ def _publish(
         log.exception("could not publish a result")
         problem = failure("internal_error", "the result could not be stored")
     else:
-        return outcome
+        return outcome if accepted else Outcome("cancelled")  # while it was being finished
     results.remove(claim.work_id)
     return Outcome("failed", failure=problem)
 

@@ -143,6 +143,8 @@ class SlotThread(threading.Thread):
         self._desk.meters.restarted("recycled")
 
     def _work_or_wait(self) -> None:
+        if self._stopping.is_set():
+            return  # whoever abandons us may have closed the slot that was just replaced
         seen = self._desk.line.arrivals
         taken = self._desk.line.take()
         if taken is None:

@@ -69,6 +69,7 @@ def read_model(data: bytes, files: Mapping[str, bytes], scene: int | None = None
     Raises:
         UnusableAssetError: `asset_unsupported`, `asset_unusable` or `asset_too_large`.
         AssetMissingError: `asset_file_missing`: a file it speaks of is not among the files.
+        RenderError: `model_part_unknown`: it has no such scene.
     """
     match model_format(data):
         case "obj":

@@ -200,10 +200,11 @@ def _nodes(nodes: list[Node], world_from_parent: Matrix) -> Iterator[tuple[Node,
 def _parts(
     mesh: ModelMesh, surface: SurfaceSpec | None, model: Model, matrix: Matrix
 ) -> Iterator[_Placed]:
-    beside = "".join(f"{name} {asset} " for name, asset in sorted(mesh.files.items()))
+    # Keys of parts are a model's own, and one file is another model for each set and scene.
+    own = f"{mesh.asset} {sorted(mesh.files.items())} {mesh.scene}"
     for part, worn in seen_parts(mesh, model):
         yield _Placed(
-            key=f"{mesh.asset} {beside}{part.key}",
+            key=f"{own} {part.key}",
             mesh=partial(_mesh_of, part),
             surface=surface or worn or _MATT_GREY,
             world_from_object=matrix @ part.matrix,

@@ -12,9 +12,10 @@ import pytest
 
 from api_schemas.families import Meaning
 from api_schemas.output import ExrType, PngBits
+from tests.whole_pictures import encode_exr, encode_png
 from tests.worker.images.exr_bytes import parse_exr
 from worker.images.image import Image
-from worker.images.image_io import encode_exr, encode_png, measure, read, write_png
+from worker.images.image_io import measure, read, write_png
 from worker.images.image_io import write_exr as write_exr_bands
 
 

@@ -11,10 +11,10 @@ import numpy as np
 import PIL.Image
 import pytest
 
+from tests.whole_pictures import encode_exr
 from tests.worker.images.exr_bytes import exr_header
 from tests.worker.images.measuring_child import MeasuringChild
 from worker.images.image import Image
-from worker.images.image_io import encode_exr
 
 PICTURE_FOLDERS = (
     "exr_damaged",

@@ -87,6 +87,7 @@ def make_requests(database):
             tenant_limit=tenant_limit,
             slots=slots,
             run_times=run_times or RunTimes(),
+            meters=Meters(),
         )
         return Requests(
             database,

@@ -55,6 +55,14 @@ def test_a_warm_child_answers_what_it_found(slot, ask, tmp_path):
     assert (tmp_path / "out").stat().st_size == 1000
 
 
+def test_the_names_in_a_large_model_are_no_longer_than_an_answer_may_be(slot, ask):
+    """Ten thousand nodes and as many materials may have names of 256 characters."""
+    letters = 2 * 10_000 * 256
+    outcome = ask(slot, do="say", letters=letters)
+    assert outcome.status == "ok"
+    assert len(outcome.facts["said"]) == letters
+
+
 def test_starting_tells_what_warming_up_told(make_slot):
     assert make_slot().start() == {"fingerprint": "trial"}
 

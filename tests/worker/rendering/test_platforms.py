@@ -17,8 +17,8 @@ import hashlib
 import numpy as np
 from typing import get_args
 from api_schemas.output import Layer
+from tests.worker.rendering.panes import glass_scene
 from tests.worker.rendering.studio import Studio
-from tests.worker.rendering.test_blending import glass_scene
 from tests.worker.rendering.test_metallic_roughness import polished_things
 from tests.worker.rendering.test_renderer import still_life
 from worker.rendering.renderer import fingerprint, render

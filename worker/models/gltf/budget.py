@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 
+from worker.geometry.mesh import UV_SETS_MAX
 from worker.models.gltf.document.meshes import Primitive
 from worker.models.gltf.document.root import Document
 from worker.models.gltf.faults import too_large
@@ -10,7 +11,7 @@ from worker.models.gltf.limits import (
     PARTS_MAX,
     VERTEX_BYTES_MAX,
 )
-from worker.models.gltf.semantics import UV_SETS_MAX, sets_of
+from worker.models.gltf.semantics import sets_of
 from worker.models.gltf.topology import KINDS, count_of
 from worker.models.limits import TRIANGLES_MAX, VERTICES_MAX
 

@@ -1,4 +1,4 @@
-"""How much a glTF file may ask for, besides what `model_limits` says of every model.
+"""How much a glTF file may ask for, besides what `worker.models.limits` says of every model.
 
 Everything is counted before memory is taken for it.
 """
@@ -28,4 +28,3 @@ ELEMENTS_MAX: Final = 32_000_000
 MORPHED_VERTICES_MAX: Final = 64_000_000
 """Vertices times the targets that move them."""
 JOINT_SETS_MAX: Final = 4
-WARNINGS_MAX: Final = 64

@@ -1,5 +1,6 @@
 """Whether every primitive is one that glTF allows, told from the JSON alone."""
 
+from worker.geometry.mesh import UV_SETS_MAX
 from worker.models.gltf.document.meshes import Primitive
 from worker.models.gltf.document.root import Document
 from worker.models.gltf.extensions import QUANTIZATION
@@ -10,7 +11,6 @@ from worker.models.gltf.semantics import (
     INDICES,
     INVERSE_BIND_MATRICES,
     TARGETS,
-    UV_SETS_MAX,
     Format,
     kind_of,
     sets_of,

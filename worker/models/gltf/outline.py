@@ -5,11 +5,12 @@ from itertools import product
 
 import numpy as np
 
+from worker.geometry.mesh import UV_SETS_MAX
 from worker.models.gltf.document.meshes import Primitive
 from worker.models.gltf.document.root import Document
 from worker.models.gltf.reader import Checked, check, complete, resting_poses, views
 from worker.models.gltf.resources import Resources, needed_files
-from worker.models.gltf.semantics import UV_SETS_MAX, sets_of
+from worker.models.gltf.semantics import sets_of
 from worker.models.gltf.topology import KINDS, count_of
 from worker.models.gltf.tree import shown_nodes
 from worker.models.model import Model

@@ -17,7 +17,6 @@ from worker.models.gltf.extensions import check_extensions
 from worker.models.gltf.faults import unusable
 from worker.models.gltf.json_text import parse
 from worker.models.gltf.lights import light_at
-from worker.models.gltf.limits import WARNINGS_MAX
 from worker.models.gltf.materials import surface_of
 from worker.models.gltf.mesh_checks import check_meshes
 from worker.models.gltf.references import check_references
@@ -27,7 +26,7 @@ from worker.models.gltf.skinning import joint_matrices
 from worker.models.gltf.storage import check_storage
 from worker.models.gltf.textures import Textures
 from worker.models.gltf.tree import Tree, check_nodes, grow, shown_nodes
-from worker.models.limits import FARTHEST
+from worker.models.limits import FARTHEST, WARNINGS_MAX
 from worker.models.model import Model, NamedCamera, NamedSurface, Part
 
 

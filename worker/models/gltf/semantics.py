@@ -6,8 +6,6 @@ from typing import Final
 
 from worker.models.gltf.document.data import Accessor
 
-UV_SETS_MAX: Final = 4
-
 Component = tuple[int, bool]
 _BYTE, _SHORT = 5120, 5122
 _UNSIGNED_BYTE, _UNSIGNED_SHORT, _FLOAT = 5121, 5123, 5126

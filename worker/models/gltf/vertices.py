@@ -6,9 +6,10 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
+from worker.geometry.mesh import UV_SETS_MAX
 from worker.models.gltf.accessors import Accessors, Rows
 from worker.models.gltf.document.meshes import Primitive
-from worker.models.gltf.semantics import UV_SETS_MAX, sets_of
+from worker.models.gltf.semantics import sets_of
 
 Floats = NDArray[np.float64]
 

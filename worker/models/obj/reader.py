@@ -25,7 +25,7 @@ from worker.models.limits import (
     check_uv,
 )
 from worker.models.model import Model, Part
-from worker.models.obj import mtl as mtl
+from worker.models.obj import mtl
 from worker.models.obj import scan as obj_scan
 from worker.models.obj.pieces import Piece, Statements, build_pieces
 from worker.models.obj.surfaces import surfaces_of

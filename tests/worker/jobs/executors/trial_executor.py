@@ -149,6 +149,10 @@ def _write(body, out, report):
     out.write_bytes(b"\7" * body["bytes"])
 
 
+def _say(body, out, report):
+    return {"said": "\u4e00" * body["letters"]}
+
+
 _DO = {
     "nothing": _nothing,
     "describe": _describe,
@@ -169,4 +173,5 @@ _DO = {
     "not json": _not_json,
     "flood": _flood,
     "write": _write,
+    "say": _say,
 }

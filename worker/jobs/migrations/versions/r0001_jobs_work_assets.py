@@ -65,9 +65,3 @@ def upgrade() -> None:
         sa.Column("created", sa.Float, nullable=False),
     )
     op.create_index("assets_by_sha256", "assets", ["sha256"])
-
-
-def downgrade() -> None:
-    """Drop the tables."""
-    for table in ("assets", "jobs", "work"):
-        op.drop_table(table)

@@ -41,11 +41,3 @@ def upgrade() -> None:
         sa.Column("created", sa.Float, nullable=False),
     )
     op.create_index("idempotency_keys_by_age", "idempotency_keys", ["created"])
-
-
-def downgrade() -> None:
-    """Drop what was added."""
-    for table in ("idempotency_keys", "batch_items", "batches"):
-        op.drop_table(table)
-    for column in ("in_batch", "estimate_seconds"):
-        op.drop_column("work", column)
