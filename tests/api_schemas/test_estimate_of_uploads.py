@@ -119,7 +119,7 @@ def test_a_model_far_from_its_origin_is_seen_where_it_is():
 
 def test_an_eye_that_a_model_brings_may_see_one_thing_alone():
     def seconds(camera):
-        request, facts = model(count=2, camera=camera)
+        request, facts = model(count=2, camera=camera, cameras=["front"])
         far = {"transform": Placement(translation=[500.0, 0.0, 0.0])}
         nodes = [request.scene.nodes[0], request.scene.nodes[1].model_copy(update=far)]
         scene = request.scene.model_copy(update={"nodes": nodes})
