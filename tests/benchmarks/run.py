@@ -18,6 +18,9 @@ from worker.jobs.environment import child_environment
 
 FOLDER = Path(__file__).resolve().parent
 ROOT = FOLDER.parent.parent
+RESULTS = FOLDER / "RESULTS.md"
+ENDURED = "\n# Endured\n"
+"""Heads what `make faults` and `make soak` print, which is put there by hand and stays."""
 PROGRAM = "import json, sys, importlib as i; m = i.import_module(sys.argv[1]); \
 print('\\n' + json.dumps({'title': m.__doc__, 'rows': [dict(row) for row in m.measure()]}))"
 LIBRARIES = ("numpy", "numba", "scipy", "OpenImageIO", "pyrender-maintained")
@@ -33,8 +36,9 @@ def main() -> None:
     for path in sorted(FOLDER.glob("bench_*.py")):
         print(f"bench: {path.stem}", flush=True)
         sections.append(measured(path.stem, environment))
-    (FOLDER / "RESULTS.md").write_text("\n".join(sections))
-    print(f"bench: wrote {FOLDER / 'RESULTS.md'}")
+    _, heading, kept = RESULTS.read_text().partition(ENDURED)
+    RESULTS.write_text("\n".join(sections) + heading + kept)
+    print(f"bench: wrote {RESULTS}")
 
 
 def measured(name: str, environment: dict[str, str]) -> str:
