@@ -17,7 +17,6 @@ from worker import result_file, synthesis
 from worker.errors import AssetMissingError
 from worker.fingerprint import fingerprint
 from worker.images.image import Image
-from worker.models import formats as models
 from worker.rendering import renderer
 from worker.rendering.packing import PICTURE
 from worker.rendering.scene_builder import TextureMaker
@@ -27,14 +26,15 @@ from worker.uploaded_pictures import UploadedPictures
 
 
 def warm(report: Report) -> dict[str, Any]:
-    """Compile every kernel and the usual shaders, or find them compiled.
+    """Compile the kernels of textures and the usual shaders, or find them compiled.
+
+    The readers of models are not among them: loading their kernels takes most of a second, and
+    nobody should wait for it who draws none.
 
     Returns:
         `fingerprint`: everything outside a request that decides pixels.
     """
-    report(0.0, "models")
-    models.warm()
-    synthesis.warm(lambda share, name: report(0.1 + 0.4 * share, name))
+    synthesis.warm(lambda share, name: report(0.5 * share, name))
     renderer.warm(lambda share, name: report(0.5 + 0.5 * share, name), _maker(_no_picture))
     report(1.0, "ready")
     return {"fingerprint": fingerprint()}

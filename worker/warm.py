@@ -26,12 +26,15 @@ def main() -> None:
         Path(os.environ[cache]).mkdir(parents=True, exist_ok=True)
     # Only now: numba, OpenBLAS and Mesa read their environment when they are loaded.
     from worker import run_job  # noqa: PLC0415
+    from worker.models import formats  # noqa: PLC0415
 
     began = time.monotonic()
 
     def report(share: float, name: str) -> None:
         sys.stderr.write(f"  {share:4.0%}  {time.monotonic() - began:5.1f} s  {name}\n")
 
+    report(0.0, "readers of models")
+    formats.warm()
     run_job.warm(report)
 
 
