@@ -152,13 +152,13 @@ def noise(spec: TextureSpec, meaning: Meaning, side: int = 1024) -> Image:
 
 
 def no_picture(spec: ImageSpec, meaning: Meaning) -> Image:
-    """There are none in these scenes."""
-    raise NotImplementedError
+    """Fail: these scenes hold no uploads, and would not be what is measured."""
+    raise AssertionError(f"a picture {spec.asset} in a scene without uploads")
 
 
 def no_model(mesh: ModelMesh) -> Model:
-    """There are none in these scenes."""
-    raise NotImplementedError
+    """Fail as `no_picture` does."""
+    raise AssertionError(f"a model {mesh.asset} in a scene without uploads")
 
 
 def ball(segments: int = 100, rings: int = 51) -> dict[str, object]:

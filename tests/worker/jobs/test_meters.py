@@ -41,7 +41,8 @@ def test_times_and_bytes_are_those_of_the_work(engine, submit, finish, value, wa
 
 def test_what_is_no_texture_is_named_by_its_kind(engine, submit, finish, value, wait_until):
     finish(engine, submit(engine, do="refuse", texture={"technique": ["no", "text"]}))
-    wait_until(lambda: value("work_ended_total", technique="texture", outcome="failed") == 1)
+    wait_until(lambda: value("work_ended_total", technique="texture", outcome="failed"))
+    assert value("work_ended_total", technique="texture", outcome="failed") == 1
 
 
 def test_the_state_of_things_is_told(make_engine, submit, begin, tmp_path):

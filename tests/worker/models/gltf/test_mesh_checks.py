@@ -121,4 +121,8 @@ def test_attributes_of_applications_may_be_anything() -> None:
     builder = Builder()
     custom = builder.accessor([0, 1, 2], "<u4")
 
-    check(with_attributes(builder, {"_BATCH_ID": custom}).glb())
+    checked = check(with_attributes(builder, {"_BATCH_ID": custom}).glb())
+
+    [mesh] = checked.document.meshes
+    assert mesh.primitives[0].attributes["_BATCH_ID"] == custom
+    assert checked.warnings == ()
