@@ -6,12 +6,18 @@ It prints the job's id. SIGTERM drains and prints the job's state and attempt; S
 import signal
 import sys
 from pathlib import Path
+from queue import SimpleQueue
 
 from worker.jobs.engine import EmbeddedEngine
 
 
 def main():
     data = Path(sys.argv[1])
+    # Handlers, not a blocked mask: a mask holds for one thread, and a signal that comes before this
+    # thread waits for it would end the process through another.
+    signals: SimpleQueue[int] = SimpleQueue()
+    for expected in (signal.SIGTERM, signal.SIGUSR1):
+        signal.signal(expected, lambda number, _: signals.put(number))
     engine = EmbeddedEngine(data, slots=1, memory_limit_bytes=1 << 30, executor="trial_executor")
     engine.start()
     body = {
@@ -22,10 +28,9 @@ def main():
         "variables": [],
     }
     job = engine.submit("texture", body, "d" * 64, tenant="local")
-    signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGTERM, signal.SIGUSR1})
     sys.stdout.write(f"{job.id}\n")
     sys.stdout.flush()
-    if signal.sigwait({signal.SIGTERM, signal.SIGUSR1}) == signal.SIGTERM:
+    if signals.get() == signal.SIGTERM:
         engine.drain(30)
         job = engine.get("local", job.id)
         sys.stdout.write(f"{job.state} {job.attempt}\n")
