@@ -54,6 +54,13 @@ class TextureSpec(TechniqueSpec):
 class CoordinatesSpec(TechniqueSpec):
     """Says which vector of the surface point a map is looked up with."""
 
+    dimensions: ClassVar[Literal[2, 3]] = 3
+    """Whether it gives a place on a picture, or a place or direction in space."""
+
+
+class LayoutSpec(TechniqueSpec):
+    """Says where on a picture each direction lies."""
+
 
 class SurfaceSpec(TechniqueSpec):
     """Says how a surface sends light to the eye, and how much of what is behind it is seen."""
