@@ -39,6 +39,8 @@ class TextureSpec(TechniqueSpec):
 
     meaning: ClassVar[Meaning] = "colour"
     """Whether the result is light (sRGB in a PNG) or numbers (quantised as they are)."""
+    layers: ClassVar[tuple[str, ...]] = ()
+    """What it can tell besides the picture: layers that `output.layers` may name."""
     sized: ClassVar[bool] = False
     """Whether it has a size of its own in pixels; otherwise it is a function on the unit tile."""
 
