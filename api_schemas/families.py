@@ -65,6 +65,9 @@ class LayoutSpec(TechniqueSpec):
 class SurfaceSpec(TechniqueSpec):
     """Says how a surface sends light to the eye, and how much of what is behind it is seen."""
 
+    needs_tangents: ClassVar[bool] = False
+    """Whether it looks different along u and along v, so that the mesh's tangents matter."""
+
     opacity: MappableNonNegative = Field(
         default=1.0,
         description="How much of what is behind is hidden, where alpha_mode is mask or blend.",
