@@ -56,10 +56,10 @@ FAMILIES: dict[str, dict[str, type[TechniqueSpec]]] = {
 
 def _json_type(value: object) -> str:
     """Choose by JSON type, so that one mistake gives one problem at one place."""
-    return "map" if isinstance(value, dict | Map) else "value"
+    return "map" if isinstance(value, dict | Schema) else "value"
 
 
-def _mappable(value: Any, mapped: type[Map]) -> Any:
+def _mappable(value: Any, mapped: Any) -> Any:
     return Annotated[
         Annotated[value, Tag("value")] | Annotated[mapped, Tag("map")], Discriminator(_json_type)
     ]
@@ -86,6 +86,7 @@ if TYPE_CHECKING:
     Texture: TypeAlias = TextureSpec
     Coordinates: TypeAlias = CoordinatesSpec
     Surface: TypeAlias = SurfaceSpec
+    Operand: TypeAlias = float | TextureSpec
     MappableNumber: TypeAlias = float | NumberMap
     MappableNonNegative: TypeAlias = float | NumberMap
     MappableColor: TypeAlias = list[float] | ColorMap
@@ -98,6 +99,7 @@ else:
     Texture = _one_of("Texture", "textures")
     Coordinates = _one_of("Coordinates", "coordinates")
     Surface = _one_of("Surface", "surfaces")
+    Operand = TypeAliasType("Operand", _mappable(Number, Texture))
     MappableNumber = TypeAliasType("MappableNumber", _mappable(Number, NumberMap))
     MappableNonNegative = TypeAliasType("MappableNonNegative", _mappable(NonNegative, NumberMap))
     MappableColor = TypeAliasType("MappableColor", _mappable(Color, ColorMap))
@@ -110,6 +112,7 @@ def _complete() -> None:
             "Texture",
             "Coordinates",
             "Surface",
+            "Operand",
             "MappableNumber",
             "MappableNonNegative",
             "MappableColor",

@@ -1,0 +1,20 @@
+"""The lesser of two textures at each point."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from worker.synthesis._pointwise import combined
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from api_schemas.textures.minimum import MinimumSpec
+    from worker.images.image import Image
+
+
+def synthesize(spec: MinimumSpec, size: tuple[int, int], inputs: Mapping[str, Image]) -> Image:
+    """Take the lesser of `inputs["a"]` and b, each channel on its own."""
+    return combined(inputs["a"], inputs.get("b", spec.b), lambda a, b: np.minimum(a, b))

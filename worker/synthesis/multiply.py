@@ -1,0 +1,18 @@
+"""The product of two textures."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from worker.synthesis._pointwise import combined
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from api_schemas.textures.multiply import MultiplySpec
+    from worker.images.image import Image
+
+
+def synthesize(spec: MultiplySpec, size: tuple[int, int], inputs: Mapping[str, Image]) -> Image:
+    """Multiply `inputs["a"]` and b, each channel on its own."""
+    return combined(inputs["a"], inputs.get("b", spec.b), lambda a, b: a * b)
