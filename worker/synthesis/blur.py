@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,9 +15,12 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from api_schemas.textures.blur import BlurSpec
+    from worker.stages import Report
 
 
-def synthesize(spec: BlurSpec, size: tuple[int, int], inputs: Mapping[str, Image]) -> Image:
+def synthesize(
+    spec: BlurSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Report
+) -> Image:
     """Smooth every channel of `inputs["input"]`, premultiplied alpha with it.
 
     Nothing becomes darker or brighter than the darkest and brightest texel of its channel.
@@ -37,7 +40,7 @@ def synthesize(spec: BlurSpec, size: tuple[int, int], inputs: Mapping[str, Image
     return Image(pixels, image.meaning)
 
 
-def _fade(swings: NDArray[np.float64], radius: float) -> NDArray[np.float64]:
+def _fade(swings: NDArray[np.floating[Any]], radius: float) -> NDArray[np.float64]:
     """Return what a Gaussian leaves of waves by their swings per tile."""
     faded: NDArray[np.float64] = np.exp(-2 * (np.pi * radius * swings) ** 2)
     return faded

@@ -12,6 +12,7 @@ import numpy as np
 
 from worker.images.image import Image
 from worker.synthesis._pointwise import held, wide
+from worker.synthesis.outcome import Outcome
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -19,19 +20,27 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from api_schemas.textures.height_from_normal import HeightFromNormalSpec
+    from worker.stages import Report
 
 _STEEPEST = 256.0
 """Slopes beyond are held there: what points sideways or down is no relief's."""
 
 
 def synthesize(
-    spec: HeightFromNormalSpec, size: tuple[int, int], inputs: Mapping[str, Image]
-) -> Image:
-    """Integrate the normals of `inputs["normal"]`: one channel of heights."""
+    spec: HeightFromNormalSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Report
+) -> Outcome:
+    """Integrate the normals of `inputs["normal"]`: one channel of heights.
+
+    The report tells the mean slopes, and of the others the share that no relief has.
+    """
     along_u, along_v = _slopes(spec, inputs["normal"])
-    heights, _ = integrated(along_u, along_v)
+    heights, lacking = integrated(along_u, along_v)
     pixels = heights / spec.depth + (0.5 if spec.range == "unit" else 0.0)
-    return Image(held(pixels)[..., np.newaxis], spec.meaning)
+    tilt = [float(along_u.mean()), float(along_v.mean())]
+    return Outcome(
+        Image(held(pixels)[..., np.newaxis], spec.meaning),
+        report={"not_integrable": lacking, "tilt": tilt},
+    )
 
 
 def integrated(
@@ -58,7 +67,7 @@ def integrated(
 
 def _swings(length: int) -> NDArray[np.float64]:
     """Return the swings per tile of each wave, 0 for the one that swings within two pixels."""
-    swings = np.fft.fftfreq(length, 1 / length)
+    swings: NDArray[np.float64] = np.fft.fftfreq(length, 1 / length).astype(np.float64)
     if length % 2 == 0:
         swings[length // 2] = 0
     return swings

@@ -13,9 +13,12 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from api_schemas.textures.threshold import ThresholdSpec
+    from worker.stages import Report
 
 
-def synthesize(spec: ThresholdSpec, size: tuple[int, int], inputs: Mapping[str, Image]) -> Image:
+def synthesize(
+    spec: ThresholdSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Report
+) -> Image:
     """Cut the first channel of `inputs["input"]` at the level: one channel of data."""
     values = wide(inputs["input"].pixels[..., :1])
     if spec.softness == 0:

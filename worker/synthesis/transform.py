@@ -19,9 +19,12 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from api_schemas.textures.transform import TransformSpec
+    from worker.stages import Report
 
 
-def synthesize(spec: TransformSpec, size: tuple[int, int], inputs: Mapping[str, Image]) -> Image:
+def synthesize(
+    spec: TransformSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Report
+) -> Image:
     """Look `inputs["input"]` up where the transform leads, bilinear and wrapped."""
     image = inputs["input"]
     cosine, sine = np.cos(spec.rotation), np.sin(spec.rotation)

@@ -14,12 +14,15 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from api_schemas.textures.channel import ChannelSpec
+    from api_schemas.textures.pick_channel import PickChannelSpec
+    from worker.stages import Report
 
 _LUMINANCE = (0.2126, 0.7152, 0.0722)
 
 
-def synthesize(spec: ChannelSpec, size: tuple[int, int], inputs: Mapping[str, Image]) -> Image:
+def synthesize(
+    spec: PickChannelSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Report
+) -> Image:
     """Take a channel of `inputs["input"]`; of colour with alpha, of its straight colour."""
     image = inputs["input"]
     numbers = _red_green_blue_alpha(image)

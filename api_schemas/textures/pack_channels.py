@@ -14,14 +14,14 @@ if TYPE_CHECKING:
     from api_schemas.language import Operand
 
 
-class PackSpec(TextureSpec):
+class PackChannelsSpec(TextureSpec):
     """Puts textures into the channels of one, as glTF wants occlusion, roughness and metal."""
 
     source: ClassVar[str] = "none needed"
     equation: ClassVar[str] = "(r, g, b, a), the first channel of each"
     meaning: ClassVar[Meaning] = "data"
 
-    technique: Literal["pack"]
+    technique: Literal["pack_channels"]
     r: Annotated[Operand, DATA] = Field(
         default=0.0, description="The red channel: the first channel of a texture, or a number."
     )

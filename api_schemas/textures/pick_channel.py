@@ -13,14 +13,14 @@ if TYPE_CHECKING:
     from api_schemas.language import Texture
 
 
-class ChannelSpec(TextureSpec):
+class PickChannelSpec(TextureSpec):
     """Takes one channel out of a texture, or how bright it is to the eye, as plain numbers."""
 
     source: ClassVar[str] = "ITU-R BT.709 (luminance)"
     equation: ClassVar[str] = "luminance = .2126 r + .7152 g + .0722 b"
     meaning: ClassVar[Meaning] = "data"
 
-    technique: Literal["channel"]
+    technique: Literal["pick_channel"]
     input: Texture = Field(description="The texture it is taken from, read as its own place is.")
     channel: Literal["r", "g", "b", "a", "luminance"] = Field(
         default="luminance",
