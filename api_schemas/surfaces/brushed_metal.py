@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class BrushedMetalSpec(SurfaceSpec):
-    """Metal with fine scratches all in one direction: the dot product of the highlight is mapped."""
+    """Metal with fine scratches in one direction: the dot product of the highlight is mapped."""
 
     needs_tangents: ClassVar[bool] = True
     source: ClassVar[str] = "Hughes et al., 2013, exercise 20.1; Phong, 1975"
