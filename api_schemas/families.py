@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from api_schemas.maps import NormalMap
 
 Meaning = Literal["colour", "data"]
+Wrap = Literal["repeat", "mirror", "clamp", "border"]
 AlphaMode = Literal["opaque", "mask", "blend"]
 
 
@@ -60,6 +61,9 @@ class CoordinatesSpec(TechniqueSpec):
 
 class LayoutSpec(TechniqueSpec):
     """Says where on a picture each direction lies."""
+
+    joins: ClassVar[tuple[Wrap, Wrap]] = ("clamp", "clamp")
+    """What lies beyond the picture along u and v."""
 
 
 class SurfaceSpec(TechniqueSpec):
