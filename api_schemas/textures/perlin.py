@@ -15,6 +15,7 @@ class PerlinSpec(TextureSpec):
     source: ClassVar[str] = "Perlin, 1985; Perlin, 2002"
     equation: ClassVar[str] = "sum_o gain^o noise(frequency lacunarity^o (u, v)) / sum_o gain^o"
     meaning: ClassVar[Meaning] = "data"
+    solid: ClassVar[bool] = True
 
     technique: Literal["perlin"]
     frequency: Annotated[int, Field(ge=1, le=4096), WHOLE] = Field(

@@ -6,6 +6,12 @@ Every technique module has
 
 with size = (width, height) and `inputs` the pictures that the spec's fields hold, by field name,
 made at the same size. It is a pure function: no clock, no state, inputs are never modified.
+One whose spec is `solid` but not `pointwise` also has
+
+    def synthesize_volume(spec, size: tuple[int, int, int], inputs: Mapping[str, Volume],
+                          report: Report) -> Volume
+
+with size = (width, height, depth) and the volumes of its fields.
 A module with kernels also has `warm()`, which compiles them. A leading underscore marks pieces
 that techniques share.
 """
@@ -20,9 +26,10 @@ from typing import TYPE_CHECKING, cast
 from api_schemas.families import Meaning, TextureSpec
 from api_schemas.textures.image import ImageSpec
 from api_schemas.walk import meaning_of
+from worker.images.volume import Volume
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterator, Mapping
     from types import ModuleType
 
     from worker.images.image import Image
@@ -67,6 +74,44 @@ def synthesize(
     return make(spec, meaning)
 
 
+def synthesize_volume(
+    spec: TextureSpec, size: tuple[int, int, int], report: Report, meaning: Meaning = "colour"
+) -> Volume:
+    """Make the volume of a solid texture and of all textures nested in it.
+
+    Equal nested textures are made once.
+
+    Args:
+        spec: A texture of a solid technique, with none but solid ones in it.
+        size: Width, height and depth in voxels, also of every nested volume.
+        report: Told the share that is done, 0..1, and the technique that is at work.
+        meaning: Of the slot that the texture itself is in.
+    """
+    uses = Counter(_keys(spec, meaning))
+    shared: dict[Key, Volume] = {}
+    made = 0
+
+    def make(spec: TextureSpec, meaning: Meaning) -> Volume:
+        nonlocal made
+        key = _key(spec, meaning)
+        if key in shared:
+            return shared[key]
+        inputs = {name: make(*slot) for name, slot in _slots(spec, meaning).items()}
+        report(made / len(uses), spec.technique)
+        volume = _fill(
+            spec,
+            size,
+            inputs,
+            lambda share, step: report((made + share) / len(uses), f"{spec.technique}: {step}"),
+        )
+        made += 1
+        if uses[key] > 1:
+            shared[key] = volume
+        return volume
+
+    return make(spec, meaning)
+
+
 def techniques() -> list[str]:
     """Return the names of the techniques in this folder, in alphabetical order."""
     names = (module.name for module in pkgutil.iter_modules(__path__))
@@ -81,6 +126,18 @@ def warm(report: Report) -> None:
         module = _module(name)
         if hasattr(module, "warm"):
             module.warm()
+
+
+def _fill(
+    spec: TextureSpec, size: tuple[int, int, int], inputs: Mapping[str, Volume], report: Report
+) -> Volume:
+    """Make one volume; what is pointwise sees all slices below each other as one picture."""
+    module = _module(spec.technique)
+    if not spec.pointwise:
+        return cast("Volume", module.synthesize_volume(spec, size, inputs, report))
+    width, height, depth = size
+    stacked = {name: volume.stacked() for name, volume in inputs.items()}
+    return Volume.unstacked(module.synthesize(spec, (width, height * depth), stacked), depth)
 
 
 def _slots(spec: TextureSpec, meaning: Meaning) -> dict[str, tuple[TextureSpec, Meaning]]:

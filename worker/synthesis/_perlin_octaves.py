@@ -13,21 +13,22 @@ SHIFT_UNITS = 256
 
 @dataclass(frozen=True, slots=True)
 class Octave:
-    """One layer of noise: weight * noise(cells * (u, v) + shift / SHIFT_UNITS, layer).
+    """One layer of noise: weight * noise(cells * (u, v, w) + shift / SHIFT_UNITS, from `layer` on).
 
     Attributes:
-        cells: Lattice cells per tile along u and v, which is also the period.
+        cells: Lattice cells per tile along u, v and w, which is also the period.
         weight: Share of the sum.
-        layer: Third lattice index, so that octaves have different gradients.
-        shift: Offset along u and v in 1/256 of a cell, so that the zeros on the lattices of
+        layer: Added to the third lattice index, so that octaves have different gradients.
+        shift: Offset along u, v and w in 1/256 of a cell, so that the zeros on the lattices of
             different octaves do not fall together. Octave n is shifted by n steps of the R2
-            sequence (Roberts, 2018), (0.7549, 0.5698) of a cell; the first one is not shifted.
+            sequence (Roberts, 2018), (0.7549, 0.5698) of a cell; the first one is not shifted, and
+            none along w, so that a picture is the slice w = 0 of the solid.
     """
 
     cells: int
     weight: float
     layer: int
-    shift: tuple[int, int]
+    shift: tuple[int, int, int]
 
 
 def octaves_of(spec: PerlinSpec, pixels_per_tile: float) -> list[Octave]:
@@ -47,7 +48,7 @@ def octaves_of(spec: PerlinSpec, pixels_per_tile: float) -> list[Octave]:
         cells = spec.frequency * spec.lacunarity**n
         weight = gain / sum(gains) * visibility(pixels_per_tile / cells)
         if weight > 0:
-            shift = (193 * n % SHIFT_UNITS, 145 * n % SHIFT_UNITS)
+            shift = (193 * n % SHIFT_UNITS, 145 * n % SHIFT_UNITS, 0)
             octaves.append(Octave(cells=cells, weight=weight, layer=n, shift=shift))
     return octaves
 

@@ -1,4 +1,4 @@
-"""Perlin noise in two dimensions, summed over octaves (Perlin, 1985; improved noise, 2002).
+"""Perlin noise in pictures and solids, summed over octaves (Perlin, 1985; improved noise, 2002).
 
 A function on the unit tile: octave n has frequency * lacunarity^n lattice cells along u and along
 v, and as many as its period, so the tile joins itself without a seam. Which gradients:
@@ -7,6 +7,9 @@ v, and as many as its period, so the tile joins itself without a seam. Which gra
 - "reference": Perlin's sixteen without their z; |noise| <= 1. With seed 0 a single octave is the
   slice z = 0 of the noise of 2002 in all cells but those that join the tile's ends, and at
   frequency 256 in those too.
+
+A solid has Perlin's sixteen gradients whole, whatever is chosen for pictures; |noise| <= 1.0364.
+With "reference" a picture is its slice w = 0.
 
 Lattice indices count modulo 256 after the period: with more cells the pattern comes again.
 
@@ -21,15 +24,24 @@ import numpy as np
 
 from api_schemas.textures.perlin import PerlinSpec
 from worker.images.image import Image
+from worker.images.volume import Volume
 from worker.synthesis._perlin_grid import axis_table, fill_fractal_noise
 from worker.synthesis._perlin_octaves import SHIFT_UNITS, octaves_of
-from worker.synthesis._perlin_points import FADES, GRADIENTS_2D, fill_fractal_noise_at
+from worker.synthesis._perlin_points import (
+    FADES,
+    GRADIENTS_2D,
+    GRADIENTS_3D,
+    fill_fractal_noise_at,
+)
+from worker.synthesis._perlin_solid import fill_fractal_solid
 from worker.synthesis._permutation import permutation
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from numpy.typing import NDArray
+
+    from worker.stages import Report
 
 
 def synthesize(spec: PerlinSpec, size: tuple[int, int], inputs: Mapping[str, Image]) -> Image:
@@ -56,6 +68,33 @@ def synthesize(spec: PerlinSpec, size: tuple[int, int], inputs: Mapping[str, Ima
     return Image(pixels[..., np.newaxis], spec.meaning)
 
 
+def synthesize_volume(
+    spec: PerlinSpec, size: tuple[int, int, int], inputs: Mapping[str, Volume], report: Report
+) -> Volume:
+    """Rasterise the solid tile at (width, height, depth): one channel of data."""
+    width, height, depth = size
+    voxels = np.empty((depth, height, width), np.float32)
+    scale, bias = _scale_and_bias(spec)
+    octaves = octaves_of(spec, min(size))
+    if not octaves:
+        voxels.fill(bias)
+        return Volume(voxels[..., np.newaxis], spec.meaning)
+    fade = FADES[spec.fade]
+    fill_fractal_solid(
+        voxels,
+        axis_table(octaves, 0, np.arange(width), width, fade),
+        axis_table(octaves, 1, np.arange(height), height, fade),
+        axis_table(octaves, 2, np.arange(depth), depth, fade),
+        np.array([octave.layer for octave in octaves], np.int32),
+        np.array([octave.cells for octave in octaves], np.int32),
+        np.array([octave.weight * scale for octave in octaves], np.float32),
+        np.float32(bias),
+        permutation(spec.seed),
+        GRADIENTS_3D.astype(np.float32),
+    )
+    return Volume(voxels[..., np.newaxis], spec.meaning)
+
+
 def noise_at(
     spec: PerlinSpec,
     u: NDArray[np.float64],
@@ -67,7 +106,7 @@ def noise_at(
     `pixels_per_tile` decides which octaves have faded, as the size does for a picture.
     """
     octaves = [
-        (octave.cells, octave.weight, octave.layer, *np.divide(octave.shift, SHIFT_UNITS))
+        (octave.cells, octave.weight, octave.layer, *np.divide(octave.shift[:2], SHIFT_UNITS))
         for octave in octaves_of(spec, pixels_per_tile)
     ]
     values = np.empty(len(u))
@@ -85,8 +124,10 @@ def noise_at(
 
 
 def warm() -> None:
-    """Compile the kernel of pictures; points are for tests and compile when asked for."""
-    synthesize(PerlinSpec(technique="perlin", frequency=1), (4, 4), {})
+    """Compile the kernels of grids; points are for tests and compile when asked for."""
+    spec = PerlinSpec(technique="perlin", frequency=1)
+    synthesize(spec, (4, 4), {})
+    synthesize_volume(spec, (4, 4, 4), {}, lambda *_: None)
 
 
 def _scale_and_bias(spec: PerlinSpec) -> tuple[float, float]:

@@ -1,0 +1,184 @@
+"""Fractal gradient noise on a regular grid of voxels, a few multiplications per voxel.
+
+Within one slice of voxels, at distance z and blend c from the lower of two lattice slices, the
+parts of a lattice line that do not and that do grow with the distance from it along v are those of
+both slices blended:
+
+    P_j = (1 - c) (P_j0 + z Qz_j0) + c (P_j1 + (z - 1) Qz_j1),    Q_j = (1 - c) Q_j0 + c Q_j1.
+
+From there on a slice is made like a picture, row by row (`_perlin_grid`).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from worker.numba_kernel import kernel, parallel_kernel, prange
+from worker.synthesis._perlin_grid import add_row, combine, set_row
+from worker.synthesis._perlin_points import hashed
+
+if TYPE_CHECKING:
+    from worker.synthesis._perlin_grid import AxisTable, Floats, Indices, Single
+
+
+@parallel_kernel
+def fill_fractal_solid(
+    voxels: Floats,
+    columns: AxisTable,
+    lines: AxisTable,
+    slices: AxisTable,
+    layers: Indices,
+    periods: Indices,
+    weights: Floats,
+    bias: Single,
+    table: Indices,
+    gradients: Floats,
+) -> None:
+    """Write bias + sum of weighted octaves into (depth, height, width).
+
+    `lines` count upwards, from the last row of a slice; the lattice slices of octave n are those of
+    the noise from number `layers[n]` on.
+    """
+    for index in prange(len(voxels)):
+        for n in range(len(weights)):
+            _fill_slice(
+                voxels[index],
+                columns.cells[n],
+                columns.offsets[n],
+                columns.blends[n],
+                lines.cells[n],
+                lines.offsets[n],
+                lines.blends[n],
+                slices.cells[n, index],
+                slices.offsets[n, index],
+                slices.blends[n, index],
+                layers[n],
+                periods[n],
+                weights[n],
+                bias if n == 0 else np.float32(0),
+                n > 0,
+                table,
+                gradients,
+            )
+
+
+@kernel
+def _fill_slice(
+    pixels: Floats,
+    column_cells: Indices,
+    x: Floats,
+    x_blends: Floats,
+    line_cells: Indices,
+    y: Floats,
+    y_blends: Floats,
+    slice_cell: int,
+    z: Single,
+    z_blend: Single,
+    layer: int,
+    period: int,
+    weight: Single,
+    bias: Single,
+    accumulate: bool,
+    table: Indices,
+    gradients: Floats,
+) -> None:
+    height, width = pixels.shape
+    first = column_cells[0]
+    columns = np.empty(width, np.uint32)
+    for c in range(width):
+        columns[c] = column_cells[c] - first
+    # At lattice points: what grows along u and v, and what does not within this slice
+    along_u = np.empty(column_cells[-1] - first + 2, np.float32)
+    along_v = np.empty_like(along_u)
+    still = np.empty_like(along_u)
+    level = np.empty((2, width), np.float32)
+    slope = np.empty((2, width), np.float32)
+    terms = np.empty((4, width), np.float32)
+    lower = 0
+    cell = -2
+    for line in range(height):
+        if line_cells[line] != cell:
+            ready = line_cells[line] == cell + 1
+            cell = int(line_cells[line])
+            lower = 1 - lower if ready else lower
+            for side in range(1 if ready else 0, 2):
+                target = lower if side == 0 else 1 - lower
+                _blend_gradients(
+                    along_u,
+                    along_v,
+                    still,
+                    first,
+                    cell + side,
+                    slice_cell,
+                    z,
+                    z_blend,
+                    layer,
+                    period,
+                    table,
+                    gradients,
+                )
+                _tabulate_level(level[target], columns, x, x_blends, along_u, still)
+                _tabulate_slope(slope[target], columns, x_blends, along_v)
+            combine(
+                terms, level[lower], slope[lower], level[1 - lower], slope[1 - lower], weight, bias
+            )
+        row = pixels[height - 1 - line]
+        if accumulate:
+            add_row(row, terms[0], terms[1], terms[2], terms[3], y[line], y_blends[line])
+        else:
+            set_row(row, terms[0], terms[1], terms[2], terms[3], y[line], y_blends[line])
+
+
+@kernel
+def _blend_gradients(
+    along_u: Floats,
+    along_v: Floats,
+    still: Floats,
+    first: int,
+    line: int,
+    slice_cell: int,
+    z: Single,
+    z_blend: Single,
+    layer: int,
+    period: int,
+    table: Indices,
+    gradients: Floats,
+) -> None:
+    column, line = first % period, line % period
+    below, above = slice_cell % period + layer, (slice_cell + 1) % period + layer
+    for i in range(len(along_u)):
+        low = gradients[hashed(column, line, below, table) & 15]
+        high = gradients[hashed(column, line, above, table) & 15]
+        along_u[i] = low[0] + z_blend * (high[0] - low[0])
+        along_v[i] = low[1] + z_blend * (high[1] - low[1])
+        fixed = low[2] * z
+        still[i] = fixed + z_blend * (high[2] * (z - np.float32(1)) - fixed)
+        column += 1
+        if column == period:
+            column = 0
+
+
+@kernel
+def _tabulate_level(
+    level: Floats,
+    columns: Indices,
+    x: Floats,
+    x_blends: Floats,
+    along_u: Floats,
+    still: Floats,
+) -> None:
+    next_along_u, next_still = along_u[1:], still[1:]
+    for c in range(len(level)):
+        left = along_u[columns[c]] * x[c] + still[columns[c]]
+        right = next_along_u[columns[c]] * (x[c] - np.float32(1)) + next_still[columns[c]]
+        level[c] = left + x_blends[c] * (right - left)
+
+
+@kernel
+def _tabulate_slope(slope: Floats, columns: Indices, x_blends: Floats, along_v: Floats) -> None:
+    next_along_v = along_v[1:]
+    for c in range(len(slope)):
+        left = along_v[columns[c]]
+        slope[c] = left + x_blends[c] * (next_along_v[columns[c]] - left)
