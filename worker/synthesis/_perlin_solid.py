@@ -20,6 +20,8 @@ from worker.synthesis._perlin_grid import add_row, combine, set_row
 from worker.synthesis._perlin_points import hashed
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from worker.synthesis._perlin_grid import AxisTable, Floats, Indices, Single
 
 
@@ -78,7 +80,7 @@ def _fill_slice(
     z_blend: Single,
     layer: int,
     period: int,
-    weight: Single,
+    weight: float,
     bias: Single,
     accumulate: bool,
     table: Indices,
@@ -163,7 +165,7 @@ def _blend_gradients(
 @kernel
 def _tabulate_level(
     level: Floats,
-    columns: Indices,
+    columns: NDArray[np.uint32],
     x: Floats,
     x_blends: Floats,
     along_u: Floats,
@@ -177,7 +179,9 @@ def _tabulate_level(
 
 
 @kernel
-def _tabulate_slope(slope: Floats, columns: Indices, x_blends: Floats, along_v: Floats) -> None:
+def _tabulate_slope(
+    slope: Floats, columns: NDArray[np.uint32], x_blends: Floats, along_v: Floats
+) -> None:
     next_along_v = along_v[1:]
     for c in range(len(slope)):
         left = along_v[columns[c]]
