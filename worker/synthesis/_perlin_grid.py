@@ -60,9 +60,14 @@ def axis_table(
         numerator = (2 * pixels + 1) * (octave.cells * SHIFT_UNITS) + 2 * size * octave.shift[axis]
         cells.append(numerator // denominator)
         offsets.append(numerator % denominator / denominator)
-    s = np.array(offsets)
+    return AxisTable(np.array(cells, np.int32), *offsets_and_blends(np.array(offsets), fade))
+
+
+def offsets_and_blends(offsets: NDArray[np.float64], fade: Floats) -> tuple[Floats, Floats]:
+    """Return where in a cell places lie, 0..1, and how far its upper end has been blended in."""
+    s = offsets
     blends = s * (fade[0] + s * (fade[1] + s * (fade[2] + s * (fade[3] + s * fade[4]))))
-    return AxisTable(np.array(cells, np.int32), s.astype(np.float32), blends.astype(np.float32))
+    return s.astype(np.float32), blends.astype(np.float32)
 
 
 @parallel_kernel

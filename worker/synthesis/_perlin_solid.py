@@ -1,4 +1,4 @@
-"""Fractal gradient noise on a regular grid of voxels, a few multiplications per voxel.
+"""Fractal gradient noise in space and time on a regular grid, a few multiplications per voxel.
 
 Within one slice of voxels, at distance z and blend c from the lower of two lattice slices, the
 parts of a lattice line that do not and that do grow with the distance from it along v are those of
@@ -6,7 +6,8 @@ both slices blended:
 
     P_j = (1 - c) (P_j0 + z Qz_j0) + c (P_j1 + (z - 1) Qz_j1),    Q_j = (1 - c) Q_j0 + c Q_j1.
 
-From there on a slice is made like a picture, row by row (`_perlin_grid`).
+With time there are four lattice slices to blend instead of two. From there on a slice is made like
+a picture, row by row (`_perlin_grid`).
 """
 
 from __future__ import annotations
@@ -16,13 +17,22 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from worker.numba_kernel import kernel, parallel_kernel, prange
-from worker.synthesis._perlin_grid import add_row, combine, set_row
+from worker.synthesis._perlin_grid import BLOCK_HEIGHT, AxisTable, add_row, combine, set_row
 from worker.synthesis._perlin_points import hashed
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import NDArray
 
-    from worker.synthesis._perlin_grid import AxisTable, Floats, Indices, Single
+    from worker.synthesis._perlin_grid import Floats, Indices, Single
+
+
+def place_table(place: float, cells: Sequence[int], fade: Floats) -> AxisTable:
+    """Tabulate a single place, in tiles, or moment, in turns, in lattices of so many cells."""
+    x = np.multiply(place - np.floor(place), cells)[:, np.newaxis]
+    whole = np.floor(x)
+    return AxisTable(whole.astype(np.int32), *offsets_and_blends(x - whole, fade))
 
 
 @parallel_kernel
@@ -31,8 +41,10 @@ def fill_fractal_solid(
     columns: AxisTable,
     lines: AxisTable,
     slices: AxisTable,
+    moment: AxisTable,
     layers: Indices,
     periods: Indices,
+    beats: Indices,
     weights: Floats,
     bias: Single,
     table: Indices,
@@ -41,23 +53,29 @@ def fill_fractal_solid(
     """Write bias + sum of weighted octaves into (depth, height, width).
 
     `lines` count upwards, from the last row of a slice; the lattice slices of octave n are those of
-    the noise from number `layers[n]` on.
+    the noise from number `layers[n]` on; `moment` has one place. `gradients` are the sixteen of
+    space or the 32 of space and time.
     """
-    for index in prange(len(voxels)):
+    depth, height, _ = voxels.shape
+    down = (height + BLOCK_HEIGHT - 1) // BLOCK_HEIGHT
+    for block in prange(depth * down):
+        index = block // down
+        top = block % down * BLOCK_HEIGHT
+        bottom = min(top + BLOCK_HEIGHT, height)
         for n in range(len(weights)):
             _fill_slice(
-                voxels[index],
+                voxels[index, top:bottom],
                 columns.cells[n],
                 columns.offsets[n],
                 columns.blends[n],
-                lines.cells[n],
-                lines.offsets[n],
-                lines.blends[n],
-                slices.cells[n, index],
-                slices.offsets[n, index],
-                slices.blends[n, index],
+                lines.cells[n, height - bottom : height - top],
+                lines.offsets[n, height - bottom : height - top],
+                lines.blends[n, height - bottom : height - top],
+                (slices.cells[n, index], moment.cells[n, 0]),
+                (slices.offsets[n, index], moment.offsets[n, 0]),
+                (slices.blends[n, index], moment.blends[n, 0]),
                 layers[n],
-                periods[n],
+                (periods[n], beats[n]),
                 weights[n],
                 bias if n == 0 else np.float32(0),
                 n > 0,
@@ -75,17 +93,18 @@ def _fill_slice(
     line_cells: Indices,
     y: Floats,
     y_blends: Floats,
-    slice_cell: int,
-    z: Single,
-    z_blend: Single,
+    cells: tuple[int, int],
+    offsets: tuple[Single, Single],
+    blends: tuple[Single, Single],
     layer: int,
-    period: int,
+    periods: tuple[int, int],
     weight: float,
     bias: Single,
     accumulate: bool,
     table: Indices,
     gradients: Floats,
 ) -> None:
+    """Write one slice; pairs are along w and along time."""
     height, width = pixels.shape
     first = column_cells[0]
     columns = np.empty(width, np.uint32)
@@ -113,11 +132,11 @@ def _fill_slice(
                     still,
                     first,
                     cell + side,
-                    slice_cell,
-                    z,
-                    z_blend,
+                    cells,
+                    offsets,
+                    blends,
                     layer,
-                    period,
+                    periods,
                     table,
                     gradients,
                 )
@@ -140,26 +159,40 @@ def _blend_gradients(
     still: Floats,
     first: int,
     line: int,
-    slice_cell: int,
-    z: Single,
-    z_blend: Single,
+    cells: tuple[int, int],
+    offsets: tuple[Single, Single],
+    blends: tuple[Single, Single],
     layer: int,
-    period: int,
+    periods: tuple[int, int],
     table: Indices,
     gradients: Floats,
 ) -> None:
-    column, line = first % period, line % period
-    below, above = slice_cell % period + layer, (slice_cell + 1) % period + layer
-    for i in range(len(along_u)):
-        low = gradients[hashed(column, line, below, table) & 15]
-        high = gradients[hashed(column, line, above, table) & 15]
-        along_u[i] = low[0] + z_blend * (high[0] - low[0])
-        along_v[i] = low[1] + z_blend * (high[1] - low[1])
-        fixed = low[2] * z
-        still[i] = fixed + z_blend * (high[2] * (z - np.float32(1)) - fixed)
-        column += 1
-        if column == period:
-            column = 0
+    timed = len(gradients) == 32
+    mask = len(gradients) - 1
+    one = np.float32(1)
+    along_u[:] = 0
+    along_v[:] = 0
+    still[:] = 0
+    for corner in range(4 if timed else 2):
+        away, later = corner & 1, corner >> 1
+        weight = blends[0] if away else one - blends[0]
+        if timed:
+            weight *= blends[1] if later else one - blends[1]
+        z, t = offsets[0] - np.float32(away), offsets[1] - np.float32(later)
+        number = (cells[0] + away) % periods[0] + layer
+        moment = (cells[1] + later) % periods[1]
+        column, row = first % periods[0], line % periods[0]
+        for i in range(len(along_u)):
+            point = hashed(column, row, number, table)
+            if timed:
+                point = table[(point + moment) & 255]
+            gradient = gradients[point & mask]
+            along_u[i] += weight * gradient[0]
+            along_v[i] += weight * gradient[1]
+            still[i] += weight * (gradient[2] * z + gradient[3] * t)
+            column += 1
+            if column == periods[0]:
+                column = 0
 
 
 @kernel
