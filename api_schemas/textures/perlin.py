@@ -10,7 +10,7 @@ from api_schemas.families import Meaning, TextureSpec
 
 
 class PerlinSpec(TextureSpec):
-    """Tileable gradient noise in pictures, solids and time, from one smooth octave to rugged sums."""
+    """Tileable gradient noise in pictures, solids and time: one smooth octave to rugged sums."""
 
     source: ClassVar[str] = "Perlin, 1985; Perlin, 2002; Musgrave, 1994 (multifractals)"
     equation: ClassVar[str] = (
@@ -66,6 +66,11 @@ class PerlinSpec(TextureSpec):
     beats: Annotated[int, Field(ge=1, le=4096), WHOLE] = Field(
         default=4, description="How often it changes from time 0 to 1."
     )
+    output: Literal["value", "slope"] = Field(
+        default="value",
+        description="The noise, or exactly how fast it rises per tile: along u, v and, of a solid, "
+        "w, as two or three channels.",
+    )
     range: Literal["unit", "signed"] = Field(
         default="unit",
         description="Values brought into 0..1, with a sum of octaves around 0.5, or as the "
@@ -73,6 +78,8 @@ class PerlinSpec(TextureSpec):
     )
 
     def cost(self, pixels: int) -> Cost:
-        """Each octave passes over every pixel once, and once more where it is not just added."""
+        """Each octave passes over every pixel once, more often where it is not just added."""
+        if self.output == "slope":
+            return Cost(seconds=pixels * 4e-7 * self.octaves, bytes=pixels * 96.0)
         passes = 1 if self.sum == "fbm" else 2
         return Cost(seconds=pixels * 1e-8 * self.octaves * passes, bytes=pixels * 16.0 * passes)

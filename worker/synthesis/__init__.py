@@ -2,14 +2,19 @@
 
 Every technique module has
 
-    def synthesize(spec, size: tuple[int, int], inputs: Mapping[str, Image]) -> Image
+    def synthesize(
+        spec, size: tuple[int, int], inputs: Mapping[str, Image], report: Report
+    ) -> Image | Outcome
 
-with size = (width, height) and `inputs` the pictures that the spec's fields hold, by field name,
-made at the same size. It is a pure function: no clock, no state, inputs are never modified.
+with size = (width, height), `inputs` the pictures that the spec's fields hold, by field name,
+made at the same size, and `report` to be told the share that is done and the step, where there are
+steps. It is a pure function: no clock, no state, inputs are never modified. An Outcome is a picture
+with layers beside it, or with something to say of it.
 One whose spec is `solid` but not `pointwise` also has
 
-    def synthesize_volume(spec, size: tuple[int, int, int], inputs: Mapping[str, Volume],
-                          report: Report) -> Volume
+    def synthesize_volume(
+        spec, size: tuple[int, int, int], inputs: Mapping[str, Volume], report: Report
+    ) -> Volume
 
 with size = (width, height, depth) and the volumes of its fields.
 A module with kernels also has `warm()`, which compiles them. A leading underscore marks pieces
@@ -24,9 +29,12 @@ from collections import Counter
 from typing import TYPE_CHECKING, cast
 
 from api_schemas.families import Meaning, TextureSpec
+from api_schemas.language import FAMILIES
 from api_schemas.textures.image import ImageSpec
 from api_schemas.walk import meaning_of
 from worker.images.volume import Volume
+from worker.stages import silent
+from worker.synthesis.outcome import Outcome
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -40,9 +48,27 @@ if TYPE_CHECKING:
 
 
 def synthesize(
-    spec: TextureSpec, size: tuple[int, int], load: Load, meaning: Meaning = "colour"
+    spec: TextureSpec,
+    size: tuple[int, int],
+    load: Load,
+    meaning: Meaning = "colour",
+    report: Report = silent,
 ) -> Image:
     """Make the picture of a texture and of all textures nested in it, at (width, height).
+
+    The same as `outcome`, of which it is the image.
+    """
+    return outcome(spec, size, load, meaning, report).image
+
+
+def outcome(
+    spec: TextureSpec,
+    size: tuple[int, int],
+    load: Load,
+    meaning: Meaning = "colour",
+    report: Report = silent,
+) -> Outcome:
+    """Make the picture of a texture, with its layers and what there is to say of it.
 
     Equal nested textures are made once.
 
@@ -52,30 +78,44 @@ def synthesize(
         load: Gives the picture of an uploaded asset in linear light, at its own size, for a slot
             that is read as colour or as data.
         meaning: Of the slot that the texture itself is in.
+        report: Told the finished part, 0..1, and the technique or its step.
 
     Raises:
-        WorkerError: Whatever `load` raises.
+        WorkerError: Whatever `load` or a technique raises.
     """
     uses = Counter(_keys(spec, meaning))
-    shared: dict[Key, Image] = {}
+    shared: dict[Key, Outcome] = {}
+    done = 0
 
-    def make(spec: TextureSpec, meaning: Meaning) -> Image:
+    def make(spec: TextureSpec, meaning: Meaning) -> Outcome:
+        nonlocal done
         key = _key(spec, meaning)
         if key in shared:
             return shared[key]
-        inputs = {name: make(*slot) for name, slot in _slots(spec, meaning).items()}
+        inputs = {name: make(*slot).image for name, slot in _slots(spec, meaning).items()}
         if isinstance(spec, ImageSpec):
             inputs["asset"] = load(spec, meaning)
-        image = cast("Image", _module(spec.technique).synthesize(spec, size, inputs))
+        before = done
+
+        def told(share: float, step: str) -> None:
+            report((before + share) / len(uses), step)
+
+        told(0.0, spec.technique)
+        made = _module(spec.technique).synthesize(spec, size, inputs, told)
+        done += 1
+        finished = made if isinstance(made, Outcome) else Outcome(made)
         if uses[key] > 1:
-            shared[key] = image
-        return image
+            shared[key] = finished
+        return finished
 
     return make(spec, meaning)
 
 
 def synthesize_volume(
-    spec: TextureSpec, size: tuple[int, int, int], report: Report, meaning: Meaning = "colour"
+    spec: TextureSpec,
+    size: tuple[int, int, int],
+    meaning: Meaning = "colour",
+    report: Report = silent,
 ) -> Volume:
     """Make the volume of a solid texture and of all textures nested in it.
 
@@ -84,27 +124,27 @@ def synthesize_volume(
     Args:
         spec: A texture of a solid technique, with none but solid ones in it.
         size: Width, height and depth in voxels, also of every nested volume.
-        report: Told the share that is done, 0..1, and the technique that is at work.
         meaning: Of the slot that the texture itself is in.
+        report: Told the finished part, 0..1, and the technique or its step.
     """
     uses = Counter(_keys(spec, meaning))
     shared: dict[Key, Volume] = {}
-    made = 0
+    done = 0
 
     def make(spec: TextureSpec, meaning: Meaning) -> Volume:
-        nonlocal made
+        nonlocal done
         key = _key(spec, meaning)
         if key in shared:
             return shared[key]
         inputs = {name: make(*slot) for name, slot in _slots(spec, meaning).items()}
-        report(made / len(uses), spec.technique)
-        volume = _fill(
-            spec,
-            size,
-            inputs,
-            lambda share, step: report((made + share) / len(uses), f"{spec.technique}: {step}"),
-        )
-        made += 1
+        before = done
+
+        def told(share: float, step: str) -> None:
+            report((before + share) / len(uses), step)
+
+        told(0.0, spec.technique)
+        volume = _fill(spec, size, inputs, told)
+        done += 1
         if uses[key] > 1:
             shared[key] = volume
         return volume
@@ -115,7 +155,7 @@ def synthesize_volume(
 def techniques() -> list[str]:
     """Return the names of the techniques in this folder, in alphabetical order."""
     names = (module.name for module in pkgutil.iter_modules(__path__))
-    return sorted(name for name in names if not name.startswith("_"))
+    return sorted(name for name in names if name in FAMILIES["textures"])
 
 
 def warm(report: Report) -> None:
@@ -137,7 +177,8 @@ def _fill(
         return cast("Volume", module.synthesize_volume(spec, size, inputs, report))
     width, height, depth = size
     stacked = {name: volume.stacked() for name, volume in inputs.items()}
-    return Volume.unstacked(module.synthesize(spec, (width, height * depth), stacked), depth)
+    made = module.synthesize(spec, (width, height * depth), stacked, report)
+    return Volume.unstacked(made.image if isinstance(made, Outcome) else made, depth)
 
 
 def _slots(spec: TextureSpec, meaning: Meaning) -> dict[str, tuple[TextureSpec, Meaning]]:

@@ -17,7 +17,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from worker.numba_kernel import kernel, parallel_kernel, prange
-from worker.synthesis._perlin_grid import BLOCK_HEIGHT, AxisTable, add_row, combine, set_row
+from worker.synthesis._perlin_grid import (
+    BLOCK_HEIGHT,
+    AxisTable,
+    add_row,
+    combine,
+    offsets_and_blends,
+    set_row,
+)
 from worker.synthesis._perlin_points import hashed
 
 if TYPE_CHECKING:

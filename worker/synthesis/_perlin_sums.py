@@ -168,9 +168,7 @@ def fill_noise_at(
                         work,
                     )
                 before, held = total, carried
-                total, carried = _folded(
-                    total, carried, noise, how.kind, gain, visible, how.rest
-                )
+                total, carried = _folded(total, carried, noise, how.kind, gain, visible, how.rest)
                 sign = -1.0 if noise < 0 else 1.0
                 for axis in range(4):
                     rise = visible * slope[axis] * (beats if axis == 3 else cells)

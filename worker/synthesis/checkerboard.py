@@ -26,7 +26,9 @@ if TYPE_CHECKING:
 _BAND_ROWS = 64
 
 
-def synthesize(spec: CheckerboardSpec, size: tuple[int, int], inputs: Mapping[str, Image]) -> Image:
+def synthesize(
+    spec: CheckerboardSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Report
+) -> Image:
     """Average the tile over each pixel of (width, height); the lower left square has colors[0]."""
     width, height = size
     down = _mean_signs(spec.cells[1], height)[::-1]

@@ -27,6 +27,7 @@ import numpy as np
 from api_schemas.textures.perlin import PerlinSpec
 from worker.images.image import Image
 from worker.images.volume import Volume
+from worker.stages import silent
 from worker.synthesis._perlin_grid import axis_table, fill_fractal_noise
 from worker.synthesis._perlin_octaves import octaves_of
 from worker.synthesis._perlin_points import FADES, GRADIENTS
@@ -48,9 +49,16 @@ if TYPE_CHECKING:
 _AXES = {"eight": 2, "reference": 2, "solid": 3, "time": 4}
 
 
-def synthesize(spec: PerlinSpec, size: tuple[int, int], inputs: Mapping[str, Image]) -> Image:
-    """Rasterise the tile at (width, height): one channel of data, within 2e-6 of `noise_at`."""
+def synthesize(
+    spec: PerlinSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Report
+) -> Image:
+    """Rasterise the tile at (width, height): one channel of data, within 2e-6 of `noise_at`.
+
+    Slopes are those of `noise_at` themselves.
+    """
     width, height = size
+    if spec.output == "slope":
+        return Image(_slopes(spec, (height, width), min(size)), spec.meaning)
     pixels = np.empty((height, width), np.float32)
     octaves = octaves_of(spec, min(size))
     gradients = _gradients(spec, solid=False)
@@ -65,7 +73,9 @@ def synthesize(spec: PerlinSpec, size: tuple[int, int], inputs: Mapping[str, Ima
 def synthesize_volume(
     spec: PerlinSpec, size: tuple[int, int, int], inputs: Mapping[str, Volume], report: Report
 ) -> Volume:
-    """Rasterise the solid tile at (width, height, depth): one channel of data."""
+    """Rasterise the solid tile at (width, height, depth) in the same way."""
+    if spec.output == "slope":
+        return Volume(_slopes(spec, size[::-1], min(size)), spec.meaning)
     voxels = np.empty(size[::-1], np.float32)
     gradients = _gradients(spec, solid=True)
     fill = partial(_fill_solid, spec, gradients, None)
@@ -111,10 +121,23 @@ def noise_at(
 def warm() -> None:
     """Compile the kernels."""
     spec = PerlinSpec(technique="perlin", frequency=1)
-    synthesize(spec, (4, 4), {})
-    synthesize(spec.model_copy(update={"sum": "ridged"}), (4, 4), {})
-    synthesize_volume(spec, (4, 4, 4), {}, lambda share, step: None)
-    noise_at(spec, np.zeros((1, 2)))
+    synthesize(spec, (4, 4), {}, silent)
+    synthesize(spec.model_copy(update={"sum": "ridged"}), (4, 4), {}, silent)
+    synthesize(spec.model_copy(update={"output": "slope"}), (4, 4), {}, silent)
+    synthesize_volume(spec, (4, 4, 4), {}, silent)
+
+
+def _slopes(spec: PerlinSpec, shape: tuple[int, ...], pixels_per_tile: int) -> Floats:
+    """Return slopes at the centres of (height, width) pixels or (depth, height, width) voxels."""
+    centres = [(np.arange(count) + 0.5) / count for count in shape]
+    centres[-2] = centres[-2][::-1]
+    slopes = np.empty((*shape, len(shape)), np.float32)
+    # Row by row of a picture, slice by slice of a solid, which keeps the points few
+    for index, first in enumerate(centres[0]):
+        rest = np.stack(np.meshgrid(first, *centres[1:], indexing="ij")[::-1], axis=-1)
+        _, found = noise_at(spec, rest.reshape(-1, len(shape)), pixels_per_tile)
+        slopes[index] = found.reshape(slopes[index].shape)
+    return slopes
 
 
 def _gradients(spec: PerlinSpec, *, solid: bool) -> str:
