@@ -45,6 +45,11 @@ class TextureSpec(TechniqueSpec):
     sized: ClassVar[bool] = False
     """Whether it has a size of its own in pixels; otherwise it is a function on the unit tile."""
 
+    solid: ClassVar[bool] = False
+    """Whether it also fills space, where the textures nested in it do."""
+    pointwise: ClassVar[bool] = False
+    """Whether each pixel follows from the same pixel of its inputs alone: so it is solid, too."""
+
     surface_side: ClassVar[int] = 1024
     """Pixels along each side of its picture, where a surface wears it."""
 
