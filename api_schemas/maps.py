@@ -104,7 +104,8 @@ class NumberMap(ScaledMap):
 class NormalMap(Map):
     """A texture in the place of a normal: x, y, z along tangent, bitangent and normal.
 
-    The tangent points where u grows, the bitangent where v grows.
+    The tangent points where u grows, the bitangent where v grows; in object space x, y, z are those
+    of the shape itself.
     """
 
     texture: Annotated[Texture, DATA] = Field(description="The picture, of any technique.")
@@ -118,4 +119,9 @@ class NormalMap(Map):
     range: Literal["unit", "signed"] = Field(
         default="unit",
         description="Whether the picture holds 0..1, with 0.5 for none, or the numbers themselves.",
+    )
+    space: Literal["tangent", "object"] = Field(
+        default="tangent",
+        description="Whether the normals lean from the surface or are the shape's own, which need "
+        "no directions of u and v and ignore how the picture is turned.",
     )
