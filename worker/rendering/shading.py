@@ -13,18 +13,21 @@ from typing import Any, Protocol, cast, get_args
 
 import numpy as np
 
-from api_schemas.coordinates.uv import UvSpec
 from api_schemas.families import Meaning, SurfaceSpec, TextureSpec
 from api_schemas.language import FAMILIES
-from api_schemas.maps import ColorMap, Map, NormalMap, NumberMap, TextureTransform
+from api_schemas.maps import ColorMap, NumberMap, TextureTransform
+from api_schemas.relief import AnyMap
 from worker.errors import RenderError
 from worker.images.pyramids import Cut
+from worker.images.relief import Preparation
+from worker.rendering import relief_shading
 from worker.rendering.chunks import chunk
 from worker.rendering.samplers import Sampling
 from worker.rendering.shading_layout import (
     LookupLayout,
     Parameter,
     PictureLayout,
+    ReliefLayout,
     ShadingLayout,
 )
 from worker.rendering.textures import Texture
@@ -40,11 +43,18 @@ class TextureSource(Protocol):
     """Where uploaded textures come from."""
 
     def __call__(
-        self, spec: TextureSpec, meaning: Meaning, *, levels: bool, cut: Cut | None = None
+        self,
+        spec: TextureSpec,
+        meaning: Meaning,
+        *,
+        levels: bool,
+        cut: Cut | None = None,
+        preparation: Preparation | None = None,
     ) -> Texture:
         """Return the texture of a spec, with its mip levels if asked for.
 
-        With a cut, the levels have as many holes as the texture.
+        With a cut, the levels have as many holes as the texture. With a preparation, it holds what
+        that asks for.
         """
 
 
@@ -92,7 +102,7 @@ def shade(surface: SurfaceSpec, texture_of: TextureSource) -> Shading:
         for name, kind in surface_fields(surface.technique).items()
     )
     opacity = plan.opacity(surface)
-    normal = None if surface.normal is None else plan.normal(surface.normal)
+    relief = plan.relief(surface)
     tables = surface_tables(surface.technique)
     pictures = (*plan.pictures, *(_table(spec, texture_of) for spec in tables.values()))
     layout = ShadingLayout(
@@ -100,7 +110,7 @@ def shade(surface: SurfaceSpec, texture_of: TextureSource) -> Shading:
         parameters=parameters,
         alpha_mode=surface.alpha_mode,
         opacity=opacity,
-        normal=normal,
+        relief=relief,
         lookups=tuple(lookup.layout for lookup in plan.lookups),
         pictures=tuple(
             PictureLayout(picture.sampling, picture.texture.format) for picture in pictures
@@ -128,14 +138,6 @@ def surface_tables(technique: str) -> dict[str, TextureSpec]:
 
 def _table(spec: TextureSpec, texture_of: TextureSource) -> Picture:
     return Picture(texture_of(spec, "data", levels=False), _TABLE_SAMPLING, (0.0,) * 4)
-
-
-def tangent_uv_set(surface: SurfaceSpec) -> int | None:
-    """Return which of a mesh's uv sets its tangents follow, if the surface needs tangents."""
-    if surface.normal is None:
-        return None
-    coordinates = surface.normal.coordinates
-    return coordinates.set if isinstance(coordinates, UvSpec) else 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -181,19 +183,24 @@ class _Plan:
                 cut = Cut(channel, mapped.scale, mapped.bias, surface.alpha_cutoff)
         return self.parameter(surface, "opacity", "float", cut)
 
-    def normal(self, mapped: NormalMap) -> int:
-        """Lay out a normal map; return its lookup."""
-        self._uniforms["normal_range"] = (2.0, -1.0) if mapped.range == "unit" else (1.0, 0.0)
-        self._uniforms["normal_axes"] = _normal_axes(mapped).ravel()
-        return self._lookup(mapped, "data")
+    def relief(self, surface: SurfaceSpec) -> ReliefLayout:
+        """Lay out what tilts, raises or deepens the surface."""
+
+        def look_up(mapped: AnyMap, preparation: Preparation | None) -> int:
+            return self._lookup(mapped, "data", preparation=preparation)
+
+        layout, uniforms = relief_shading.lay_out(surface, look_up)
+        self._uniforms |= uniforms
+        return layout
 
     def _lookup(
         self,
-        mapped: ColorMap | NumberMap | NormalMap,
+        mapped: AnyMap,
         meaning: Meaning,
         cut: Cut | None = None,
+        preparation: Preparation | None = None,
     ) -> int:
-        picture = self._picture(mapped, mapped.texture, meaning, cut)
+        picture = self._picture(mapped, meaning, cut, preparation)
         technique, *choices = mapped.coordinates.model_dump().values()
         layout = LookupLayout(technique, tuple(choices), mapped.filter, picture)
         key = json.dumps(
@@ -204,11 +211,15 @@ class _Plan:
             self.lookups.append(_Lookup(layout, mapped.transform))
         return self._found[key]
 
-    def _picture(self, mapped: Map, spec: TextureSpec, meaning: Meaning, cut: Cut | None) -> int:
+    def _picture(
+        self, mapped: AnyMap, meaning: Meaning, cut: Cut | None, preparation: Preparation | None
+    ) -> int:
         u, v = mapped.wrap
         sampling = Sampling.of((u, v), mapped.filter)
         border = tuple(mapped.border_color) if "border" in (u, v) else (0.0,) * 4
-        texture = self._texture_of(spec, meaning, levels=sampling.levels, cut=cut)
+        texture = self._texture_of(
+            mapped.texture, meaning, levels=sampling.levels, cut=cut, preparation=preparation
+        )
         picture = Picture(texture, sampling, border)
         if picture not in self.pictures:
             self.pictures.append(picture)
@@ -244,17 +255,6 @@ def texture_from_uv(transform: TextureTransform, period: Sequence[float]) -> np.
         for shift, length in zip(transform.offset, period, strict=True)
     ]
     return matrix
-
-
-def _normal_axes(mapped: NormalMap) -> np.ndarray:
-    """Give the 2 x 2 matrix that takes a normal map's x and y to where u and v grow.
-
-    A picture that is turned or mirrored on the surface has its own x and y turned or mirrored.
-    """
-    mirrored = np.where(np.array(mapped.transform.scale) < 0, -1.0, 1.0)
-    green = 1.0 if mapped.green == "up" else -1.0
-    picture_from_uv = _turn(mapped.transform) * mirrored
-    return picture_from_uv.T * (mapped.strength * np.array([1.0, green]))
 
 
 def _turn(transform: TextureTransform) -> np.ndarray:

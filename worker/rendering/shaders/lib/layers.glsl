@@ -1,4 +1,5 @@
 #include "lib/fragment.glsl"
+#include "lib/object_frame.glsl"
 
 // What is known of a thing beside its light; worker/rendering/packing.py has the same table.
 layout(location = 1) out vec4 layer_albedo;            // premultiplied; a = coverage
@@ -12,7 +13,6 @@ uniform vec3 eye_position;  // in the world
 uniform vec3 view_axis;     // where the eye looks
 uniform int object_id;
 uniform int material_id;
-uniform mat3 normal_from_object;
 uniform samplerBuffer face_normals;  // of each triangle, outward, in the object's frame
 uniform bool has_faces;              // lines and points have none
 

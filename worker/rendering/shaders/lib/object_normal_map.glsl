@@ -1,3 +1,4 @@
+#include "lib/held_normal.glsl"
 #include "lib/object_frame.glsl"
 #include "lib/surface_point.glsl"
 uniform float normal_strength;
