@@ -12,7 +12,7 @@ def test_a1_signed_and_unsigned_bytes_are_decoded_as_the_book_says():
     held = (signed % 256) / 255  # as a picture holds a byte in two's complement
 
     assert decode(held, "snorm8") == pytest.approx([-1, -1, 0, 64 / 127, 1], abs=6e-8)
-    assert 64 / 127 == pytest.approx(0.503937008, abs=1e-9)
+    assert pytest.approx(0.503937008, abs=1e-9) == 64 / 127
     unsigned = decode(np.array([0, 128, 255]) / 255, "unorm8")
     assert unsigned == pytest.approx([-1, 0.003921569, 1], abs=6e-8)  # float32 rounds them
 
