@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from api_schemas.relief import BumpMap, HeightMap, ParallaxMap, TangentFrames
 
 Meaning = Literal["colour", "data"]
+Wrap = Literal["repeat", "mirror", "clamp", "border"]
 AlphaMode = Literal["opaque", "mask", "blend"]
 
 
@@ -44,6 +45,11 @@ class TextureSpec(TechniqueSpec):
     sized: ClassVar[bool] = False
     """Whether it has a size of its own in pixels; otherwise it is a function on the unit tile."""
 
+    solid: ClassVar[bool] = False
+    """Whether it also fills space, where the textures nested in it do."""
+    pointwise: ClassVar[bool] = False
+    """Whether each pixel follows from the same pixel of its inputs alone: so it is solid, too."""
+
     surface_side: ClassVar[int] = 1024
     """Pixels along each side of its picture, where a surface wears it."""
 
@@ -62,9 +68,15 @@ class CoordinatesSpec(TechniqueSpec):
 class LayoutSpec(TechniqueSpec):
     """Says where on a picture each direction lies."""
 
+    joins: ClassVar[tuple[Wrap, Wrap]] = ("clamp", "clamp")
+    """What lies beyond the picture along u and v."""
+
 
 class SurfaceSpec(TechniqueSpec):
     """Says how a surface sends light to the eye, and how much of what is behind it is seen."""
+
+    needs_tangents: ClassVar[bool] = False
+    """Whether it looks different along u and along v, so that the mesh's tangents matter."""
 
     opacity: MappableNonNegative = Field(
         default=1.0,

@@ -8,15 +8,14 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from pydantic import Field
 
 from api_schemas.base import Angle, Color, Number, Pair, Schema
+from api_schemas.families import Meaning, Wrap
 
 if TYPE_CHECKING:
-    from api_schemas.families import Meaning
     from api_schemas.language import Coordinates, Layout, Texture
 
 MAPS_MAX = 24
 """Maps on one surface: with eight to spare, what OpenGL lets a shader read."""
 
-Wrap = Literal["repeat", "mirror", "clamp", "border"]
 Filter = Literal["nearest", "bilinear", "trilinear", "anisotropic"]
 
 

@@ -13,8 +13,8 @@ from worker.geometry.topology import Floats
 from worker.images.image import Image
 from worker.images.pyramids import mip_chain
 from worker.images.sampling import sample
+from worker.rendering.lookups import texture_from_uv
 from worker.rendering.samplers import Sampling
-from worker.rendering.shading import texture_from_uv
 
 
 def with_relief(mesh: Mesh, spec: Displacement, image: Image) -> Mesh:

@@ -41,11 +41,14 @@ def background_sources(layout: ShadingLayout) -> tuple[Source, Source]:
 def _fragment(layout: ShadingLayout, layered: bool) -> str:
     parameters = [*layout.parameters, *([layout.opacity] if layout.opacity else [])]
     chunks = ["lib/fragment.glsl", f"surfaces/{layout.technique}.glsl"]
-    chunks += [f"coordinates/{lookup.coordinates}.glsl" for lookup in layout.lookups]
+    calls = [(call, n) for n, lookup in enumerate(layout.lookups) for call in lookup.calls]
+    chunks += [call.chunk for call, _ in calls]
     chunks += relief_chunks(layout.relief)
     chunks += ["lib/opacity.glsl"] if layout.opacity else []
     chunks += ["lib/layers.glsl"] if layered else []
     lines = _head(layout, chunks)
+    for call, number in calls:
+        lines += call.declarations(number)
     for parameter in parameters:
         lines += _declarations(parameter)
     lines += ["void main() {", "    SurfacePoint point = surface_point();"]
@@ -81,7 +84,10 @@ def _head(layout: ShadingLayout, chunks: Sequence[str]) -> list[str]:
 
 
 def _relief(layout: ShadingLayout) -> list[str]:
-    """Write the readings of all pictures, and how some of them move and tilt the point."""
+    """Write the readings of all pictures, and how some of them move and tilt the point.
+
+    What tilts is read first, so that a bumped mirror reflects by its bumps.
+    """
     place = _place if layout.relief.parallax is None else _moved_place
 
     def read(number: int) -> list[str]:
@@ -112,7 +118,11 @@ def _texels(
 
 
 def _place(lookup: LookupLayout, number: int) -> str:
-    return f"coordinates_{lookup.coordinates}({', '.join(['point', *map(str, lookup.choices)])})"
+    """Write where to look: coordinates are of the point, a layout is of coordinates."""
+    text = "point"
+    for call in lookup.calls:
+        text = call.text(text, number)
+    return f"flat_reach({text})" if lookup.calls[-1].returns == "Reach" else text
 
 
 def _moved_place(lookup: LookupLayout, number: int) -> str:

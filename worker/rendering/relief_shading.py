@@ -1,6 +1,5 @@
 """From the maps that tilt, raise or deepen a surface to a layout and uniforms."""
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, TypeAlias
@@ -12,6 +11,7 @@ from api_schemas.families import SurfaceSpec
 from api_schemas.maps import Map, NormalMap
 from api_schemas.relief import AnyMap, BumpMap, HeightMap, ParallaxMap, TangentFrames
 from worker.images.relief import Decoded, Preparation, Slopes
+from worker.rendering.lookups import turn
 from worker.rendering.shading_layout import ReliefLayout
 
 LookUp: TypeAlias = Callable[[AnyMap, Preparation | None], int]
@@ -31,7 +31,7 @@ def tangents_wanted(surface: SurfaceSpec) -> TangentsWanted | None:
     normal = surface.normal if surface.normal and surface.normal.space == "tangent" else None
     leading = normal or surface.bump
     if leading is None:
-        return None
+        return TangentsWanted(0, surface.tangents) if surface.needs_tangents else None
     coordinates = leading.coordinates
     uv_set = coordinates.set if isinstance(coordinates, UvSpec) else 0
     return TangentsWanted(uv_set, surface.tangents)
@@ -49,13 +49,14 @@ def lay_out(surface: SurfaceSpec, look_up: LookUp) -> tuple[ReliefLayout, dict[s
         bump = look_up(surface.bump, Decoded(surface.bump.encoding))
     if surface.height is not None:
         uniforms |= _height(surface.height)
-        u, v = surface.height.wrap
+        layout = surface.height.layout
+        u, v = surface.height.wrap if layout is None else layout.joins
         channel = "rgba".index(surface.height.channel)
         height = look_up(surface.height, Slopes(channel, (u, v)))
     if surface.parallax is not None:
         uniforms |= _parallax(surface.parallax)
         parallax = look_up(surface.parallax, None)
-    layout = ReliefLayout(
+    relief = ReliefLayout(
         normal=normal,
         normal_space=surface.normal.space if surface.normal else "tangent",
         bump=bump,
@@ -63,7 +64,7 @@ def lay_out(surface: SurfaceSpec, look_up: LookUp) -> tuple[ReliefLayout, dict[s
         parallax=parallax,
         parallax_method=surface.parallax.method if surface.parallax else "offset",
     )
-    return layout, uniforms
+    return relief, uniforms
 
 
 def _normal(mapped: NormalMap) -> dict[str, Any]:
@@ -104,6 +105,5 @@ def _uv_from_picture(mapped: Map) -> np.ndarray:
 
     A picture that is turned or mirrored on the surface has its own x and y turned or mirrored.
     """
-    cosine, sine = math.cos(mapped.transform.rotation), math.sin(mapped.transform.rotation)
     mirrored = np.where(np.array(mapped.transform.scale) < 0, -1.0, 1.0)
-    return np.array([[cosine, sine], [-sine, cosine]]) * mirrored[:, None]
+    return np.array((turn(mapped.transform) * mirrored).T)

@@ -8,6 +8,7 @@ from typing import Protocol
 
 import numpy as np
 
+from api_schemas.coordinates.uv import UvSpec
 from api_schemas.families import Meaning, SurfaceSpec, TextureSpec
 from api_schemas.lights import Light
 from api_schemas.maps import ColorMap
@@ -201,7 +202,8 @@ class SceneBuilder:
         if spec is None:
             return None
         if isinstance(spec, ColorMap):
-            surface = UnlitSpec(technique="unlit", color=spec)
+            where = {"coordinates": UvSpec(technique="uv"), "layout": None}
+            surface = UnlitSpec(technique="unlit", color=spec.model_copy(update=where))
             return self._shading(surface, maker)
         return tuple(min(value, LARGEST_LIGHT) for value in spec)
 

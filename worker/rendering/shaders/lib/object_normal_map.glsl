@@ -1,5 +1,5 @@
 #include "lib/held_normal.glsl"
-#include "lib/object_frame.glsl"
+#include "lib/frames.glsl"
 #include "lib/surface_point.glsl"
 uniform float normal_strength;
 

@@ -1,5 +1,4 @@
-#include "lib/object_frame.glsl"
-#include "lib/reach.glsl"
+#include "lib/frames.glsl"
 #include "lib/surface_point.glsl"
 
 // A surface in its object's own frame, where depths are measured, and how it goes on to the next
