@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from api_schemas.textures.gardner import GardnerSpec
+    from worker.closed_form import Parameter
     from worker.stages import Report
 
 
@@ -61,6 +62,19 @@ def mean_at(
     angles = 2 * np.pi * (places @ cycles[:, :axes].T) + phases
     means: NDArray[np.float64] = np.cos(angles) @ fades * (scale / len(cycles)) + bias
     return means
+
+
+def closed_form(spec: GardnerSpec, *, solid: bool) -> Mapping[str, Parameter]:
+    """Return the waves, phases in turns, and what becomes of their sum."""
+    cycles, phases = waves_of(spec, 3 if solid else 2)
+    turns = (phases / (2 * np.pi) % 1)[:, np.newaxis]
+    scale, bias = _scale_and_bias(spec)
+    return {
+        "waves": np.concatenate([cycles, turns], axis=1).astype(np.float32),
+        "count": len(cycles),
+        "scale": scale / len(cycles),
+        "bias": bias,
+    }
 
 
 def sum_of_cosines(

@@ -19,13 +19,14 @@ from worker.images.image import Image
 from worker.images.volume import Volume
 from worker.numba_kernel import kernel, parallel_kernel, prange
 from worker.stages import silent
-from worker.synthesis._counter_hash import uniforms
+from worker.synthesis._counter_hash import key, uniforms
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from numpy.typing import NDArray
 
+    from worker.closed_form import Parameter
     from worker.stages import Report
 
 METRICS = {"euclidean": 0, "manhattan": 1, "chebyshev": 2}
@@ -113,6 +114,25 @@ def distances_at(spec: WorleySpec, places: NDArray[np.float64]) -> NDArray[np.fl
     return values
 
 
+def closed_form(spec: WorleySpec, *, solid: bool) -> Mapping[str, Parameter]:
+    """Return what the points are made from, and how distance is measured."""
+    cells = spec.frequency ** (3 if solid else 2)
+    poisson = spec.points == "poisson"
+    # Of more cells than a few one has a point, so nobody needs to look
+    lone = poisson and cells <= 64 and not _chance(spec, cells).any()
+    keys = [key(spec.seed, use) for use in range(4)]
+    return {
+        "frequency": spec.frequency,
+        "flat_tile": int(not solid),
+        "poisson": int(poisson),
+        "lone": int(lone),
+        "jitter": spec.jitter,
+        "metric": METRICS[spec.metric],
+        "shown": OUTPUTS[spec.output],
+        "keys": np.array([[k >> 16 * q & 0xFFFF for q in range(4)] for k in keys], np.float32),
+    }
+
+
 def scatter(spec: WorleySpec, axes: int = 2) -> Points:
     """Scatter the points of a tile with two or three axes.
 
@@ -121,7 +141,7 @@ def scatter(spec: WorleySpec, axes: int = 2) -> Points:
     cells = spec.frequency**axes
     counts = np.ones(cells, np.int64)
     if spec.points == "poisson":
-        counts = np.searchsorted(POISSON, uniforms(spec.seed, 0, cells), side="right")
+        counts = _chance(spec, cells)
         counts[0] += counts.sum() == 0
     starts = np.concatenate([[0], np.cumsum(counts)])
     places = np.full((starts[-1], 3), 0.5)
@@ -133,6 +153,10 @@ def scatter(spec: WorleySpec, axes: int = 2) -> Points:
     if spec.points == "one":
         places = 0.5 + spec.jitter * (places - 0.5)
     return Points(starts, places)
+
+
+def _chance(spec: WorleySpec, cells: int) -> NDArray[np.int64]:
+    return np.searchsorted(POISSON, uniforms(spec.seed, 0, cells), side="right")
 
 
 def warm() -> None:
