@@ -15,8 +15,10 @@ from api_schemas.cost import Cost
 if TYPE_CHECKING:
     from api_schemas.language import MappableNonNegative
     from api_schemas.maps import NormalMap
+    from api_schemas.relief import BumpMap, HeightMap, ParallaxMap, TangentFrames
 
 Meaning = Literal["colour", "data"]
+Wrap = Literal["repeat", "mirror", "clamp", "border"]
 AlphaMode = Literal["opaque", "mask", "blend"]
 
 
@@ -70,9 +72,15 @@ class CoordinatesSpec(TechniqueSpec):
 class LayoutSpec(TechniqueSpec):
     """Says where on a picture each direction lies."""
 
+    joins: ClassVar[tuple[Wrap, Wrap]] = ("clamp", "clamp")
+    """What lies beyond the picture along u and v."""
+
 
 class SurfaceSpec(TechniqueSpec):
     """Says how a surface sends light to the eye, and how much of what is behind it is seen."""
+
+    needs_tangents: ClassVar[bool] = False
+    """Whether it looks different along u and along v, so that the mesh's tangents matter."""
 
     opacity: MappableNonNegative = Field(
         default=1.0,
@@ -91,7 +99,23 @@ class SurfaceSpec(TechniqueSpec):
         default=True, description="Whether the inner side is drawn as well as the outer one."
     )
     normal: NormalMap | None = Field(
-        default=None, description="Tilts the surface in fine detail: a tangent-space normal map."
+        default=None, description="Tilts the surface in fine detail: a map of normals."
+    )
+    bump: BumpMap | None = Field(
+        default=None, description="Tilts what is there further, by two numbers for each texel."
+    )
+    height: HeightMap | None = Field(
+        default=None, description="Tilts what is there further, as the slopes of a relief do."
+    )
+    parallax: ParallaxMap | None = Field(
+        default=None,
+        description="Lets the eye look into a relief: every other map is read where the ray ends.",
+    )
+    tangents: TangentFrames = Field(
+        default="mikktspace",
+        description="Which directions normal and bump maps tilt along: those that bakers use, the "
+        "mean of the triangles round each corner, or the parallels and meridians of a globe round "
+        "the y axis. They follow the coordinates of the normal map, without one the bump map's.",
     )
 
     def filled(self) -> Self:
