@@ -158,11 +158,14 @@ def test_a_constant_is_what_a_sampler_would_read(draw, value):
     shown = draw(synthesis.closed_form(texture, solid=False), places(2), PIXEL)
 
     grey = [[value] * 3, 1.0] if isinstance(value, float) else None
-    hues, alpha = grey or {
-        2: ([value[0]] * 3, value[-1]),
-        3: (value, 1.0),
-        4: (value[:3], value[-1]),
-    }[len(value)]
+    hues, alpha = (
+        grey
+        or {
+            2: ([value[0]] * 3, value[-1]),
+            3: (value, 1.0),
+            4: (value[:3], value[-1]),
+        }[len(value)]
+    )
     assert (shown == np.array([*(hue * alpha for hue in hues), alpha], np.float32)).all()
 
 
