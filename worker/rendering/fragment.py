@@ -1,21 +1,57 @@
 """The fragment shader of a surface: its chunk, and generated code that fills its parameters."""
 
+import functools
 from collections.abc import Callable, Sequence
 
 from worker.rendering.chunks import Source, chunk, join
-from worker.rendering.shading_layout import LookupLayout, Parameter, ShadingLayout
+from worker.rendering.shading_layout import (
+    LightLayout,
+    LookupLayout,
+    Parameter,
+    ShadingLayout,
+)
 
 VERSION = "#version 410 core"
+_LIGHTS = "lib/lights.glsl"
 _BY_OPACITY = {
     "mask": "    if (opacity < alpha_cutoff) discard;",
     "blend": "    color *= opacity;",
 }
 
 
-def surface_sources(layout: ShadingLayout, *, layered: bool) -> tuple[Source, Source]:
+def surface_sources(
+    layout: ShadingLayout, lights: LightLayout, *, layered: bool
+) -> tuple[Source, Source]:
     """Return the vertex and the fragment source that draw a layout, with or without all layers."""
-    fragment = _fragment(layout, layered)
+    fragment = _fragment(layout, lights, layered)
     return join(chunk("mesh.vert"), "mesh.vert"), join(fragment, layout.technique)
+
+
+@functools.cache
+def is_lit(technique: str) -> bool:
+    """Tell whether a surface asks for the lights: others need no program for their shadows."""
+    name = f"surfaces/{technique}.glsl"
+    return _LIGHTS in join(chunk(name), name).chunks
+
+
+def hole_sources(layout: ShadingLayout) -> tuple[Source, Source]:
+    """Return the sources that draw the depth alone, with holes where little or nothing is."""
+    opacity = layout.opacity
+    assert opacity is not None
+    lookups = [layout.lookups[opacity.lookup]] if opacity.lookup is not None else []
+    chunks = ["lib/fragment.glsl", "lib/opacity.glsl"]
+    chunks += [f"coordinates/{lookup.coordinates}.glsl" for lookup in lookups]
+    cutoff = "alpha_cutoff" if layout.alpha_mode == "mask" else "0.5"
+    lines = [
+        *_head(layout, chunks),
+        *_declarations(opacity),
+        "void main() {",
+        "    SurfacePoint point = surface_point();",
+        *_texels(layout, _coordinates, [opacity.lookup]),
+        f"    if (bounded({_value(opacity)}, point.color.a) < {cutoff}) discard;",
+        "}",
+    ]
+    return join(chunk("mesh.vert"), "mesh.vert"), join("\n".join(lines), "hole")
 
 
 def background_sources(layout: ShadingLayout) -> tuple[Source, Source]:
@@ -35,13 +71,15 @@ def background_sources(layout: ShadingLayout) -> tuple[Source, Source]:
     return vertex, join("\n".join(lines), "background")
 
 
-def _fragment(layout: ShadingLayout, layered: bool) -> str:
+def _fragment(layout: ShadingLayout, lights: LightLayout, layered: bool) -> str:
     parameters = [*layout.parameters, *([layout.opacity] if layout.opacity else [])]
     chunks = ["lib/fragment.glsl", f"surfaces/{layout.technique}.glsl"]
     chunks += [f"coordinates/{lookup.coordinates}.glsl" for lookup in layout.lookups]
     chunks += ["lib/normal_map.glsl"] if layout.normal is not None else []
     chunks += ["lib/opacity.glsl"] if layout.opacity else []
     chunks += ["lib/layers.glsl"] if layered else []
+    if is_lit(layout.technique):
+        chunks += ["lib/shadows.glsl" if lights.shadows else "lib/unobstructed.glsl"]
     lines = _head(layout, chunks)
     for parameter in parameters:
         lines += _declarations(parameter)
@@ -81,13 +119,18 @@ def _head(layout: ShadingLayout, chunks: Sequence[str]) -> list[str]:
     return lines
 
 
-def _texels(layout: ShadingLayout, coordinates: Callable[[LookupLayout], str]) -> list[str]:
-    """Write the readings of all pictures; `coordinates` gives the call that says where."""
+def _texels(
+    layout: ShadingLayout,
+    coordinates: Callable[[LookupLayout], str],
+    only: Sequence[int | None] | None = None,
+) -> list[str]:
+    """Write the readings of pictures; `coordinates` gives the call that says where."""
     return [
         f"    vec4 texel_{index} = sample_{lookup.filter}(picture_{lookup.picture}, "
         f"look_up({coordinates(lookup)}, lookup_transform[{index}], "
         f"lookup_period[{index}], lookup_size[{index}]));"
         for index, lookup in enumerate(layout.lookups)
+        if only is None or index in only
     ]
 
 
