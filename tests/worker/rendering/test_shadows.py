@@ -198,13 +198,17 @@ def test_lights_of_every_kind_share_one_array(studio: Studio) -> None:
 def test_32_points_with_shadows_fit(studio: Studio) -> None:
     crowd = scene(POINT)
     crowd["lights"] = [
-        POINT | {"position": [-4.0 - 0.1 * number, 2.5, 0.5], "shadow": {"resolution": 64}}
+        POINT
+        | {
+            "position": [-4.0 - 0.03 * number, 2.5, 0.5],
+            "shadow": {"resolution": 128, "radius": 0},
+        }
         for number in range(32)
     ]
     drawn = studio.draw(crowd, (SIZE, SIZE))[..., 0]
 
     assert np.isfinite(drawn).all()
-    assert drawn[SIZE // 2, int((3.6 / EXTENT + 0.5) * SIZE)] == 0  # behind the square for all
+    assert drawn[SIZE // 2, int((3.0 / EXTENT + 0.5) * SIZE)] == 0  # behind the square for all
 
 
 def test_a_scene_without_shadows_compiles_nothing_for_them(studio: Studio) -> None:
