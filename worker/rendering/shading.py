@@ -133,7 +133,7 @@ def _table(spec: TextureSpec, texture_of: TextureSource) -> Picture:
 def tangent_uv_set(surface: SurfaceSpec) -> int | None:
     """Return which of a mesh's uv sets its tangents follow, if the surface needs tangents."""
     if surface.normal is None:
-        return None
+        return 0 if surface.needs_tangents else None
     coordinates = surface.normal.coordinates
     return coordinates.set if isinstance(coordinates, UvSpec) else 0
 
