@@ -12,11 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from api_schemas.light_cost import faces_of
 from api_schemas.lights import DirectionalLight, PointLight, SpotLight
 from worker.geometry.transforms import Matrix
-
-WIDEST_CONE = 1.2
-"""Half angle beyond which a cone is seen in six faces; one would be coarse in the middle."""
 
 _NEAREST = 1e-4
 """Where the maps of a cone begin, of the distance to the farthest thing."""
@@ -141,7 +139,7 @@ def _central(lamp: PointLight | SpotLight, number: int, corners: NDArray[np.floa
     assert shadow is not None
     origin = np.array(lamp.position, dtype=np.float64)
     reach = float(np.linalg.norm(corners - origin, axis=1).max(initial=_SMALLEST))
-    all_round = isinstance(lamp, PointLight) or lamp.outer_angle > WIDEST_CONE
+    all_round = faces_of(lamp) == 6
     room = shadow.resolution / 2 - _GUARD - shadow.radius
     slope = 1.0 if all_round else max(math.tan(lamp.outer_angle), 1e-3)  # type: ignore[union-attr]
     return LightView(

@@ -236,3 +236,19 @@ def test_an_empty_scene_has_no_shadows(studio: Studio) -> None:
     empty["nodes"] = []
 
     assert not studio.draw(empty, (8, 8)).any()
+
+
+def test_shadows_do_not_end_where_a_tile_does(
+    studio: Studio, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from worker.rendering import renderer  # noqa: PLC0415  needs OpenGL
+
+    lit = scene(SUN | {"shadow": {"resolution": 256}})
+    lit["lights"].append(POINT | {"shadow": {"resolution": 256}})
+    whole = studio.draw(lit, (SIZE, SIZE))
+    monkeypatch.setattr(renderer, "tile_size", lambda *picture: (64, 64))
+
+    cut = studio.draw(lit, (SIZE, SIZE))
+
+    # As in test_renderer: positions are rounded anew, and an edge may turn a texel.
+    assert (np.abs(cut - whole).max(axis=2) > 1e-4).mean() < 0.005
