@@ -25,6 +25,14 @@ from api_schemas.families import (
     TextureSpec,
 )
 from api_schemas.maps import ColorMap, Map, NormalMap, NumberMap, ScaledMap
+from api_schemas.relief import (
+    BumpMap,
+    Displacement,
+    HeightMap,
+    ParallaxMap,
+    ReliefMap,
+    TangentFrames,
+)
 
 
 def specs_in(folder: ModuleType, family: type[TechniqueSpec]) -> dict[str, type[TechniqueSpec]]:
@@ -127,10 +135,11 @@ def _complete() -> None:
             "MappableNonNegative",
             "MappableColor",
         )
-    } | {"NormalMap": NormalMap}
+    } | {model.__name__: model for model in (NormalMap, BumpMap, HeightMap, ParallaxMap)}
+    names["TangentFrames"] = TangentFrames
     members = [spec for family in FAMILIES.values() for spec in family.values()]
     models: list[type[Schema]] = [Map, ScaledMap, ColorMap, NumberMap, NormalMap]
-    models += [SurfaceSpec, *members]
+    models += [ReliefMap, BumpMap, HeightMap, ParallaxMap, Displacement, SurfaceSpec, *members]
     for model in models:
         module = importlib.import_module(model.__module__)
         model.model_rebuild(force=True, _types_namespace={**vars(module), **names})

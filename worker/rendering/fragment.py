@@ -1,7 +1,7 @@
 """The fragment shader of a surface: its chunk, and generated code that fills its parameters."""
 
 import functools
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 
 from worker.rendering.chunks import Source, chunk, join
 from worker.rendering.shading_layout import (
@@ -38,16 +38,18 @@ def hole_sources(layout: ShadingLayout) -> tuple[Source, Source]:
     """Return the sources that draw the depth alone, with holes where little or nothing is."""
     opacity = layout.opacity
     assert opacity is not None
-    lookups = [layout.lookups[opacity.lookup]] if opacity.lookup is not None else []
-    chunks = ["lib/fragment.glsl", "lib/opacity.glsl"]
-    chunks += [f"coordinates/{lookup.coordinates}.glsl" for lookup in lookups]
+    numbers = [] if opacity.lookup is None else [opacity.lookup]
+    calls = [(call, number) for number in numbers for call in layout.lookups[number].calls]
+    chunks = ["lib/fragment.glsl", "lib/opacity.glsl", *(call.chunk for call, _ in calls)]
     cutoff = "alpha_cutoff" if layout.alpha_mode == "mask" else "0.5"
-    lines = [
-        *_head(layout, chunks),
+    lines = _head(layout, chunks)
+    for call, number in calls:
+        lines += call.declarations(number)
+    lines += [
         *_declarations(opacity),
         "void main() {",
         "    SurfacePoint point = surface_point();",
-        *_texels(layout, _coordinates, [opacity.lookup]),
+        *_texels(layout, numbers, _place),
         f"    if (bounded({_value(opacity)}, point.color.a) < {cutoff}) discard;",
         "}",
     ]
@@ -62,7 +64,9 @@ def background_sources(layout: ShadingLayout) -> tuple[Source, Source]:
         *_head(layout, ["lib/background.glsl"]),
         *_declarations(color),
         "void main() {",
-        *_texels(layout, lambda lookup: "coordinates_picture()"),
+        *_texels(
+            layout, range(len(layout.lookups)), lambda lookup, number: "coordinates_picture()"
+        ),
         f"    vec3 light = color_scale * {texel}.rgb + color_bias * {texel}.a;",
         f"    color = holdable(vec4(light, clamp({texel}.a, 0.0, 1.0)));",
         "}",
@@ -74,21 +78,26 @@ def background_sources(layout: ShadingLayout) -> tuple[Source, Source]:
 def _fragment(layout: ShadingLayout, lights: LightLayout, layered: bool) -> str:
     parameters = [*layout.parameters, *([layout.opacity] if layout.opacity else [])]
     chunks = ["lib/fragment.glsl", f"surfaces/{layout.technique}.glsl"]
-    chunks += [f"coordinates/{lookup.coordinates}.glsl" for lookup in layout.lookups]
+    calls = [(call, n) for n, lookup in enumerate(layout.lookups) for call in lookup.calls]
+    chunks += [call.chunk for call, _ in calls]
     chunks += ["lib/normal_map.glsl"] if layout.normal is not None else []
     chunks += ["lib/opacity.glsl"] if layout.opacity else []
     chunks += ["lib/layers.glsl"] if layered else []
     if is_lit(layout.technique):
         chunks += ["lib/shadows.glsl" if lights.shadows else "lib/unobstructed.glsl"]
     lines = _head(layout, chunks)
+    for call, number in calls:
+        lines += call.declarations(number)
     for parameter in parameters:
         lines += _declarations(parameter)
     if layout.normal is not None:
         lines += ["uniform vec2 normal_range;", "uniform vec4 normal_axes;"]
     lines += ["void main() {", "    SurfacePoint point = surface_point();"]
-    lines += _texels(layout, _coordinates)
     if layout.normal is not None:
+        lines += _texels(layout, [layout.normal], _place)
         lines += _tilt(layout.normal)
+    # After the tilt, so that a bumped mirror reflects by its bumps.
+    lines += _texels(layout, [n for n in range(len(layout.lookups)) if n != layout.normal], _place)
     lines.append("    Surface surface;")
     lines += [f"    surface.{p.name} = {_value(p)};" for p in layout.parameters]
     lines.append("    color = holdable(shade(point, surface));")
@@ -120,22 +129,26 @@ def _head(layout: ShadingLayout, chunks: Sequence[str]) -> list[str]:
 
 
 def _texels(
-    layout: ShadingLayout,
-    coordinates: Callable[[LookupLayout], str],
-    only: Sequence[int | None] | None = None,
+    layout: ShadingLayout, numbers: Iterable[int], place: Callable[[LookupLayout, int], str]
 ) -> list[str]:
-    """Write the readings of pictures; `coordinates` gives the call that says where."""
-    return [
-        f"    vec4 texel_{index} = sample_{lookup.filter}(picture_{lookup.picture}, "
-        f"look_up({coordinates(lookup)}, lookup_transform[{index}], "
-        f"lookup_period[{index}], lookup_size[{index}]));"
-        for index, lookup in enumerate(layout.lookups)
-        if only is None or index in only
-    ]
+    """Write the readings with these numbers; `place` gives the call that says where."""
+    lines = []
+    for number in numbers:
+        lookup = layout.lookups[number]
+        lines.append(
+            f"    vec4 texel_{number} = sample_{lookup.filter}(picture_{lookup.picture}, "
+            f"look_up({place(lookup, number)}, lookup_transform[{number}], "
+            f"lookup_period[{number}], lookup_size[{number}]));"
+        )
+    return lines
 
 
-def _coordinates(lookup: LookupLayout) -> str:
-    return f"coordinates_{lookup.coordinates}({', '.join(['point', *map(str, lookup.choices)])})"
+def _place(lookup: LookupLayout, number: int) -> str:
+    """Write where to look: coordinates are of the point, a layout is of coordinates."""
+    text = "point"
+    for call in lookup.calls:
+        text = call.text(text, number)
+    return f"flat_reach({text})" if lookup.calls[-1].returns == "Reach" else text
 
 
 def _tilt(lookup: int) -> list[str]:

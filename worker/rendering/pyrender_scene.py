@@ -180,6 +180,9 @@ class FlatScene(pyrender.Scene):  # type: ignore[misc]
     def place(self, program: Program, primitive: SurfacePrimitive) -> None:
         """Tell the bound program where a primitive stands to the eye."""
         program.set("eye", self.eye)
+        if "eye_position" in program.uniforms:
+            program.set("eye_position", self.view.world_from_camera[:3, 3])
+            program.set("camera_from_world", self.view.world_from_camera[:3, :3].T)
         program.set("eye_from_object", self.eye_from_object[primitive.number])
         program.set("normal_from_object", self.normal_from_object[primitive.number])
         program.set("handedness", -1.0 if primitive.mirrored else 1.0)

@@ -1,9 +1,10 @@
 """The texture units of OpenGL: which picture each one holds, and how it is read."""
 
 from worker.rendering.gl_context import GL
+from worker.rendering.lookups import Picture
 from worker.rendering.programs import Program
 from worker.rendering.samplers import SamplerCache
-from worker.rendering.shading import Picture, Shading
+from worker.rendering.shading import Shading
 
 
 class TextureUnits:
