@@ -32,7 +32,7 @@ class Cookie(Schema):
     )
     border_color: Annotated[list[Number], Field(min_length=4, max_length=4)] = Field(
         default=[0.0, 0.0, 0.0, 0.0],
-        description="Linear value beyond the picture where wrap is border: red, green, blue, alpha.",
+        description="Linear light beyond the picture where wrap is border, with its alpha.",
     )
     filter: Filter = Field(
         default="trilinear",

@@ -93,8 +93,8 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         self._units.forget()
         if lights.views:
             self._shadows.bind()
-        for unit, picture in enumerate(lights.cookies.pictures, COOKIE_UNIT):
-            self._units.put(unit, picture)
+        for unit, cookie in enumerate(lights.cookies.pictures, COOKIE_UNIT):
+            self._units.put(unit, cookie)
         self.viewport_width, self.viewport_height = size
         GL.glLineWidth(supersampling)
         GL.glPointSize(supersampling)

@@ -23,6 +23,7 @@ from worker.geometry.tangents import with_tangents
 from worker.geometry.transforms import Matrix, parent_from_node
 from worker.images.image import Image
 from worker.images.pyramids import Cut, keep_coverage, mip_chain
+from worker.images.relief import Preparation, prepared
 from worker.models.model import Model, Part
 from worker.rendering.cache import ByteCache
 from worker.rendering.cookies import Cookies, cookies_of
@@ -30,7 +31,8 @@ from worker.rendering.displacing import with_relief
 from worker.rendering.lookups import TextureSource
 from worker.rendering.model_changes import seen_parts
 from worker.rendering.pyrender_scene import Background, Drawable, View
-from worker.rendering.shading import Shading, shade, tangent_uv_set
+from worker.rendering.relief_shading import TangentsWanted, tangents_wanted
+from worker.rendering.shading import Shading, shade
 from worker.rendering.staging import PlacedModel, lights_of, view_of
 from worker.rendering.textures import Texture
 from worker.rendering.vertex_arrays import VertexArray
@@ -169,29 +171,36 @@ class SceneBuilder:
         self._meshes.trim()
 
     def _kept(self, item: _Placed, tangents: bool) -> VertexArray:
-        uv_set = tangent_uv_set(item.surface)
-        if tangents and uv_set is None:
-            uv_set = 0
+        wanted = tangents_wanted(item.surface)
+        if tangents and wanted is None:
+            wanted = TangentsWanted(0, item.surface.tangents)
 
         def make() -> tuple[VertexArray, int]:
             mesh = item.mesh()
-            if uv_set is not None:
-                mesh = with_tangents(mesh, uv_set)
+            if wanted is not None:
+                mesh = with_tangents(mesh, wanted.uv_set)
             uploaded = VertexArray.upload(mesh)
             return uploaded, uploaded.size_bytes
 
-        return self._meshes.get((item.key, uv_set), make)
+        return self._meshes.get((item.key, wanted), make)
 
     def _shading(self, surface: SurfaceSpec, maker: TextureMaker) -> Shading:
         return shade(surface, self._source(maker))
 
     def _source(self, maker: TextureMaker) -> TextureSource:
         def texture_of(
-            spec: TextureSpec, meaning: Meaning, *, levels: bool, cut: Cut | None = None
+            spec: TextureSpec,
+            meaning: Meaning,
+            *,
+            levels: bool,
+            cut: Cut | None = None,
+            preparation: Preparation | None = None,
         ) -> Texture:
             cut = cut if levels else None
-            key = (spec.model_dump_json(), meaning, levels, cut)
-            return self._textures.get(key, lambda: _upload(maker(spec, meaning), levels, cut))
+            key = (spec.model_dump_json(), meaning, levels, cut, preparation)
+            return self._textures.get(
+                key, lambda: _upload(prepared(maker(spec, meaning), preparation), levels, cut)
+            )
 
         return texture_of
 
