@@ -105,16 +105,36 @@ def _relief(layout: ShadingLayout) -> list[str]:
 def _texels(
     layout: ShadingLayout, numbers: Iterable[int], place: Callable[[LookupLayout, int], str]
 ) -> list[str]:
-    """Write the readings with these numbers; `place` gives the call that says where."""
+    """Write the readings with these numbers; `place` gives what says where."""
     lines = []
     for number in numbers:
-        lookup = layout.lookups[number]
-        lines.append(
-            f"    vec4 texel_{number} = sample_{lookup.filter}(picture_{lookup.picture}, "
-            f"look_up({place(lookup, number)}, lookup_transform[{number}], "
-            f"lookup_period[{number}], lookup_size[{number}]));"
-        )
+        where = place(layout.lookups[number], number)
+        if layout.lookups[number].returns == "Triplanar":
+            lines += _three_texels(layout.lookups[number], number, where)
+        else:
+            lines.append(
+                f"    vec4 texel_{number} = {_reading(layout.lookups[number], number, where)};"
+            )
     return lines
+
+
+def _three_texels(lookup: LookupLayout, number: int, where: str) -> list[str]:
+    """Write three readings, blended so that a constant picture is constant to the last bit."""
+    sides, texel = f"sides_{number}", f"texel_{number}"
+    x, y, z = (_reading(lookup, number, f"{sides}.along_{axis}") for axis in "xyz")
+    weights = f"{sides}.weights"
+    return [
+        f"    Triplanar {sides} = {where};",
+        f"    vec4 {texel} = {x};",
+        f"    {texel} += {weights}.y * ({y} - {texel}) + {weights}.z * ({z} - {texel});",
+    ]
+
+
+def _reading(lookup: LookupLayout, number: int, where: str) -> str:
+    return (
+        f"sample_{lookup.filter}(picture_{lookup.picture}, look_up({where}, "
+        f"lookup_transform[{number}], lookup_period[{number}], lookup_size[{number}]))"
+    )
 
 
 def _place(lookup: LookupLayout, number: int) -> str:
@@ -122,7 +142,7 @@ def _place(lookup: LookupLayout, number: int) -> str:
     text = "point"
     for call in lookup.calls:
         text = call.text(text, number)
-    return f"flat_reach({text})" if lookup.calls[-1].returns == "Reach" else text
+    return f"flat_reach({text})" if lookup.returns == "Reach" else text
 
 
 def _moved_place(lookup: LookupLayout, number: int) -> str:

@@ -33,6 +33,11 @@ class LookupLayout:
     filter: Filter
     picture: int
 
+    @property
+    def returns(self) -> str:
+        """The GLSL type of what says where: a Footprint, a Reach or a Triplanar."""
+        return self.calls[-1].returns
+
 
 @dataclass(frozen=True, slots=True)
 class PictureLayout:
