@@ -17,6 +17,7 @@ from typing_extensions import TypeAliasType
 
 from api_schemas import coordinates, layouts, surfaces, textures
 from api_schemas.base import Color, NonNegative, Number, Schema
+from api_schemas.dishes import DishSpec, ReactionSpec
 from api_schemas.families import (
     CoordinatesSpec,
     LayoutSpec,
@@ -25,6 +26,7 @@ from api_schemas.families import (
     TextureSpec,
 )
 from api_schemas.maps import ColorMap, Map, NormalMap, NumberMap, ScaledMap
+from api_schemas.parameters import ParameterMap
 
 
 def specs_in(folder: ModuleType, family: type[TechniqueSpec]) -> dict[str, type[TechniqueSpec]]:
@@ -130,6 +132,7 @@ def _complete() -> None:
     } | {"NormalMap": NormalMap}
     members = [spec for family in FAMILIES.values() for spec in family.values()]
     models: list[type[Schema]] = [Map, ScaledMap, ColorMap, NumberMap, NormalMap]
+    models += [ParameterMap, *ParameterMap.__subclasses__(), DishSpec, ReactionSpec]
     models += [SurfaceSpec, *members]
     for model in models:
         module = importlib.import_module(model.__module__)

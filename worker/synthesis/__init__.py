@@ -7,9 +7,10 @@ Every technique module has
     ) -> Image | Outcome
 
 with size = (width, height), `inputs` the pictures that the spec's fields hold, by field name,
-made at the same size, and `report` to be told the share that is done and the step, where there are
-steps. It is a pure function: no clock, no state, inputs are never modified. An Outcome is a picture
-with layers beside it, or with something to say of it.
+made at the same size unless the spec's `inner_size` says otherwise, and `report` to be told the
+share that is done and the step, where there are steps. It is a pure function: no clock, no state,
+inputs are never modified. An Outcome is a picture with layers beside it, or with something to say
+of it.
 A module with kernels also has `warm()`, which compiles them. A leading underscore marks pieces
 that techniques share.
 """
@@ -23,6 +24,8 @@ from typing import TYPE_CHECKING
 
 from api_schemas.families import Meaning, TextureSpec
 from api_schemas.language import FAMILIES
+from api_schemas.maps import DATA
+from api_schemas.parameters import ParameterMap
 from api_schemas.textures.image import ImageSpec
 from api_schemas.walk import meaning_of
 from worker.stages import silent
@@ -35,7 +38,8 @@ if TYPE_CHECKING:
     from worker.images.image import Image
     from worker.stages import Report
 
-    Key = tuple[str, Meaning]
+    Size = tuple[int, int]
+    Key = tuple[str, Meaning, Size]
     Load = Callable[[ImageSpec, Meaning], Image]
 
 
@@ -66,7 +70,8 @@ def outcome(
 
     Args:
         spec: A texture of any technique.
-        size: Width and height in pixels, also of every nested picture.
+        size: Width and height in pixels, also of what is nested in it but for techniques that
+            count in cells of their own.
         load: Gives the picture of an uploaded asset in linear light, at its own size, for a slot
             that is read as colour or as data.
         meaning: Of the slot that the texture itself is in.
@@ -75,16 +80,17 @@ def outcome(
     Raises:
         WorkerError: Whatever `load` or a technique raises.
     """
-    uses = Counter(_keys(spec, meaning))
+    uses = Counter(_keys(spec, meaning, size))
     shared: dict[Key, Outcome] = {}
     done = 0
 
-    def make(spec: TextureSpec, meaning: Meaning) -> Outcome:
+    def make(spec: TextureSpec, meaning: Meaning, size: Size) -> Outcome:
         nonlocal done
-        key = _key(spec, meaning)
+        key = _key(spec, meaning, size)
         if key in shared:
             return shared[key]
-        inputs = {name: make(*slot).image for name, slot in _slots(spec, meaning).items()}
+        slots = _slots(spec, meaning, size)
+        inputs = {name: make(*slot).image for name, slot in slots.items()}
         if isinstance(spec, ImageSpec):
             inputs["asset"] = load(spec, meaning)
         before = done
@@ -100,7 +106,7 @@ def outcome(
             shared[key] = finished
         return finished
 
-    return make(spec, meaning)
+    return make(spec, meaning, size)
 
 
 def techniques() -> list[str]:
@@ -119,23 +125,28 @@ def warm(report: Report) -> None:
             module.warm()
 
 
-def _slots(spec: TextureSpec, meaning: Meaning) -> dict[str, tuple[TextureSpec, Meaning]]:
-    """Return the textures directly within a spec, each with the meaning of its slot."""
+def _slots(
+    spec: TextureSpec, meaning: Meaning, size: Size
+) -> dict[str, tuple[TextureSpec, Meaning, Size]]:
+    """Return the textures of a spec's fields, each with the meaning of its slot and its size."""
     slots = {}
+    inner = spec.inner_size(size)
     for name, field in type(spec).model_fields.items():
         value = getattr(spec, name)
         if isinstance(value, TextureSpec):
-            slots[name] = (value, meaning_of(field, meaning))
+            slots[name] = (value, meaning_of(field, meaning), inner)
+        elif isinstance(value, ParameterMap):
+            slots[name] = (value.texture, DATA.meaning, inner)
     return slots
 
 
-def _key(spec: TextureSpec, meaning: Meaning) -> Key:
-    return (spec.model_dump_json(), meaning)
+def _key(spec: TextureSpec, meaning: Meaning, size: Size) -> Key:
+    return (spec.model_dump_json(), meaning, size)
 
 
-def _keys(spec: TextureSpec, meaning: Meaning) -> Iterator[Key]:
-    yield _key(spec, meaning)
-    for slot in _slots(spec, meaning).values():
+def _keys(spec: TextureSpec, meaning: Meaning, size: Size) -> Iterator[Key]:
+    yield _key(spec, meaning, size)
+    for slot in _slots(spec, meaning, size).values():
         yield from _keys(*slot)
 
 
