@@ -27,6 +27,14 @@ from api_schemas.families import (
 )
 from api_schemas.maps import ColorMap, Map, NormalMap, NumberMap, ScaledMap
 from api_schemas.parameters import ParameterMap
+from api_schemas.relief import (
+    BumpMap,
+    Displacement,
+    HeightMap,
+    ParallaxMap,
+    ReliefMap,
+    TangentFrames,
+)
 
 
 def specs_in(folder: ModuleType, family: type[TechniqueSpec]) -> dict[str, type[TechniqueSpec]]:
@@ -129,11 +137,12 @@ def _complete() -> None:
             "MappableNonNegative",
             "MappableColor",
         )
-    } | {"NormalMap": NormalMap}
+    } | {model.__name__: model for model in (NormalMap, BumpMap, HeightMap, ParallaxMap)}
+    names["TangentFrames"] = TangentFrames
     members = [spec for family in FAMILIES.values() for spec in family.values()]
     models: list[type[Schema]] = [Map, ScaledMap, ColorMap, NumberMap, NormalMap]
-    models += [ParameterMap, *ParameterMap.__subclasses__(), DishSpec, ReactionSpec]
-    models += [SurfaceSpec, *members]
+    models += [ReliefMap, BumpMap, HeightMap, ParallaxMap, Displacement, SurfaceSpec]
+    models += [ParameterMap, *ParameterMap.__subclasses__(), DishSpec, ReactionSpec, *members]
     for model in models:
         module = importlib.import_module(model.__module__)
         model.model_rebuild(force=True, _types_namespace={**vars(module), **names})

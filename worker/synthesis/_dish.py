@@ -33,7 +33,8 @@ Row: TypeAlias = "NDArray[np.float64]"
 @kernel
 def at(rows: Rows, row: int) -> Row:
     """Return what a parameter is along a row of cells, of which 0 is the rim."""
-    return rows[min(row - 1, len(rows) - 1)]
+    one: Row = rows[min(row - 1, len(rows) - 1)]
+    return one
 
 
 @kernel
