@@ -3,10 +3,11 @@
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Final
 
-from api_schemas.assets import AssetFacts, MaterialLibraryFacts, ModelFacts
+from api_schemas.assets import AssetFacts, ImageFacts, MaterialLibraryFacts, ModelFacts
 from api_schemas.camera import ModelCamera
-from api_schemas.feasibility import Obstacle
 from api_schemas.model_mesh import ModelMesh
+from api_schemas.obstacle import Obstacle
+from api_schemas.relief import AnyMap
 from api_schemas.requests import RenderRequest, Request
 from api_schemas.textures.image import ImageSpec
 from api_schemas.walk import escaped, parts
@@ -40,6 +41,8 @@ def misuses(request: Request, facts: Mapping[str, AssetFacts]) -> Iterator[Obsta
             yield from _kind(facts.get(part.asset), PICTURES, f"{pointer}/asset")
         elif isinstance(part, ModelMesh):
             yield from _model(part, facts, pointer)
+        elif isinstance(part, AnyMap):
+            yield from _layout(part, facts, pointer)
     if isinstance(request, RenderRequest):
         yield from _camera(request, facts)
 
@@ -92,6 +95,18 @@ def _model(mesh: ModelMesh, facts: Mapping[str, AssetFacts], pointer: str) -> It
         yield _unknown("materials", len(model.materials), place)
     for index in _absent([change.node for change in mesh.nodes], model.nodes):
         yield _unknown("nodes", len(model.nodes), f"{pointer}/nodes/{index}/node")
+
+
+def _layout(mapped: AnyMap, facts: Mapping[str, AssetFacts], pointer: str) -> Iterator[Obstacle]:
+    """Look whether an upload has the shape of its layout."""
+    if mapped.layout is None or not isinstance(mapped.texture, ImageSpec):
+        return
+    found = facts.get(mapped.texture.asset)
+    across, down = mapped.layout.proportion
+    if not isinstance(found, ImageFacts) or found.width * down == found.height * across:
+        return
+    message = f"it is {across}:{down}, and the picture {found.width} x {found.height}"
+    yield Obstacle("layout_mismatch", f"{pointer}/layout", message)
 
 
 def _camera(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Iterator[Obstacle]:

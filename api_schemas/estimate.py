@@ -38,6 +38,7 @@ SECONDS_PER_MAP_SAMPLE = {
     "bilinear": 1e-8,
     "trilinear": 2e-8,
     "anisotropic": 1.5e-7,
+    "formula": 4e-7,
 }
 SECONDS_TO_COMPILE_A_MAP = 0.12
 SECONDS_PER_DRAWN_TRIANGLE = 5e-8

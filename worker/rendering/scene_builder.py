@@ -9,7 +9,7 @@ from typing import Protocol
 import numpy as np
 
 from api_schemas.coordinates.uv import UvSpec
-from api_schemas.families import Meaning, SurfaceSpec, TextureSpec
+from api_schemas.families import SurfaceSpec
 from api_schemas.lights import Light
 from api_schemas.maps import ColorMap
 from api_schemas.model_mesh import ModelMesh
@@ -21,20 +21,17 @@ from worker.geometry import primitives
 from worker.geometry.mesh import Mesh
 from worker.geometry.tangents import with_tangents
 from worker.geometry.transforms import Matrix, parent_from_node
-from worker.images.image import Image
-from worker.images.pyramids import Cut, keep_coverage, mip_chain
-from worker.images.relief import Preparation, prepared
 from worker.models.model import Model, Part
 from worker.rendering.cache import ByteCache
 from worker.rendering.cookies import Cookies, cookies_of
 from worker.rendering.displacing import with_relief
-from worker.rendering.lookups import TextureSource
 from worker.rendering.model_changes import seen_parts
 from worker.rendering.pyrender_scene import Background, Drawable, View
 from worker.rendering.relief_shading import TangentsWanted, tangents_wanted
 from worker.rendering.shading import Shading, shade
 from worker.rendering.staging import PlacedModel, lights_of, view_of
-from worker.rendering.textures import Texture
+from worker.rendering.texture_maker import TextureMaker
+from worker.rendering.texture_store import TextureStore
 from worker.rendering.vertex_arrays import VertexArray
 
 TEXTURE_BYTES_MAX = 128 << 20
@@ -42,13 +39,6 @@ MESH_BYTES_MAX = 64 << 20
 LARGEST_LIGHT = 5e36
 """Of a picture, as in lib/picture.glsl."""
 _MATT_GREY = PhongSpec(technique="phong")
-
-
-class TextureMaker(Protocol):
-    """Turns a texture of the language into a picture."""
-
-    def __call__(self, spec: TextureSpec, meaning: Meaning, /) -> Image:
-        """Return the picture, read as colour or as data."""
 
 
 class ModelReader(Protocol):
@@ -87,7 +77,7 @@ class SceneBuilder:
 
     def __init__(self) -> None:
         """Begin with nothing in OpenGL."""
-        self._textures = ByteCache[Texture](TEXTURE_BYTES_MAX, Texture.delete)
+        self._textures = TextureStore(TEXTURE_BYTES_MAX)
         self._meshes = ByteCache[VertexArray](MESH_BYTES_MAX, VertexArray.delete)
 
     def build(
@@ -142,7 +132,7 @@ class SceneBuilder:
         )
         view = view_of(scene.camera, models, vertices, aspect)
         lights, left_out = lights_of(scene.lights, models, view.world_from_camera)
-        cookies = cookies_of(lights, self._source(maker))
+        cookies = cookies_of(lights, self._textures.source(maker))
         background = self._background(scene.background, maker)
         shadings = [drawable.shading for drawable in drawables]
         if isinstance(background, Shading):
@@ -185,24 +175,7 @@ class SceneBuilder:
         return self._meshes.get((item.key, wanted), make)
 
     def _shading(self, surface: SurfaceSpec, maker: TextureMaker) -> Shading:
-        return shade(surface, self._source(maker))
-
-    def _source(self, maker: TextureMaker) -> TextureSource:
-        def texture_of(
-            spec: TextureSpec,
-            meaning: Meaning,
-            *,
-            levels: bool,
-            cut: Cut | None = None,
-            preparation: Preparation | None = None,
-        ) -> Texture:
-            cut = cut if levels else None
-            key = (spec.model_dump_json(), meaning, levels, cut, preparation)
-            return self._textures.get(
-                key, lambda: _upload(prepared(maker(spec, meaning), preparation), levels, cut)
-            )
-
-        return texture_of
+        return shade(surface, self._textures.source(maker))
 
     def _background(
         self, spec: list[float] | ColorMap | None, maker: TextureMaker
@@ -246,11 +219,3 @@ def _displaced(item: _Placed, spec: Displacement, maker: TextureMaker) -> _Place
 
 def _mesh_of(part: Part) -> Mesh:
     return part.mesh
-
-
-def _upload(image: Image, levels: bool, cut: Cut | None) -> tuple[Texture, int]:
-    chain = mip_chain(image.pixels) if levels else [image.pixels]
-    if cut is not None:
-        keep_coverage(chain, cut)
-    texture = Texture.upload(chain, image.meaning)
-    return texture, texture.size_bytes
