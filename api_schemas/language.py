@@ -24,7 +24,7 @@ from api_schemas.families import (
     TechniqueSpec,
     TextureSpec,
 )
-from api_schemas.maps import ColorMap, Map, NormalMap, NumberMap, ScaledMap
+from api_schemas.maps import ColorMap, LightMap, Map, NormalMap, NumberMap, ScaledMap
 from api_schemas.relief import (
     BumpMap,
     Displacement,
@@ -135,10 +135,10 @@ def _complete() -> None:
             "MappableNonNegative",
             "MappableColor",
         )
-    } | {model.__name__: model for model in (NormalMap, BumpMap, HeightMap, ParallaxMap)}
+    } | {model.__name__: model for model in (LightMap, NormalMap, BumpMap, HeightMap, ParallaxMap)}
     names["TangentFrames"] = TangentFrames
     members = [spec for family in FAMILIES.values() for spec in family.values()]
-    models: list[type[Schema]] = [Map, ScaledMap, ColorMap, NumberMap, NormalMap]
+    models: list[type[Schema]] = [Map, ScaledMap, ColorMap, LightMap, NumberMap, NormalMap]
     models += [ReliefMap, BumpMap, HeightMap, ParallaxMap, Displacement, SurfaceSpec, *members]
     for model in models:
         module = importlib.import_module(model.__module__)
