@@ -82,11 +82,10 @@ def _fragment(layout: ShadingLayout, lights: LightLayout, layered: bool) -> str:
     chunks += relief_chunks(layout.relief)
     chunks += ["lib/opacity.glsl"] if layout.opacity else []
     chunks += ["lib/layers.glsl"] if layered else []
-    if is_lit(layout.technique):
-        chunks += light_chunks(lights)
+    lit = is_lit(layout.technique) or lights.visibility
+    chunks += light_chunks(lights) if lit else []
     lines = _head(layout, chunks)
-    if is_lit(layout.technique):
-        lines += light_lines(lights)
+    lines += light_lines(lights) if lit else []
     for call, number in calls:
         lines += call.declarations(number)
     for parameter in parameters:
@@ -105,6 +104,8 @@ def _fragment(layout: ShadingLayout, lights: LightLayout, layered: bool) -> str:
         lines.append(_BY_OPACITY[layout.alpha_mode])
     if layered:
         lines.append("    write_layers(point, albedo(surface), color.a);")
+    if lights.visibility:
+        lines.append("    layer_tangent.a = light_visibility(point);")
     return "\n".join([*lines, "}"])
 
 

@@ -149,7 +149,9 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
     ) -> Program:
         assert self._frame is not None
         layout, layered = primitive.material.shading.layout, self._frame.target.layered
-        lights = self._frame.lights.layout if is_lit(layout.technique) else LightLayout()
+        lights = self._frame.lights.layout
+        if not (is_lit(layout.technique) or lights.visibility):
+            lights = LightLayout()
         return self._linked(
             (layout, lights, layered), lambda: surface_sources(layout, lights, layered=layered)
         )

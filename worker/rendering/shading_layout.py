@@ -62,10 +62,12 @@ class LightLayout:
     Attributes:
         shadows: Whether any casts shadows.
         cookies: The pictures before them.
+        visibility: Whether what comes through is told as a layer, of surfaces that need none too.
     """
 
     shadows: bool = False
     cookies: tuple[CookieLayout, ...] = ()
+    visibility: bool = False
 
     @property
     def samplers(self) -> tuple[str, ...]:
