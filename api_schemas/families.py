@@ -5,6 +5,8 @@ A technique's name is written once: its module's name, its `technique` literal, 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, ClassVar, Literal, Self
 
 from pydantic import Field
@@ -16,12 +18,21 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from api_schemas.language import MappableNonNegative
-    from api_schemas.maps import NormalMap
+    from api_schemas.maps import LightMap, NormalMap
     from api_schemas.relief import BumpMap, HeightMap, ParallaxMap, TangentFrames
 
 Meaning = Literal["colour", "data"]
 Wrap = Literal["repeat", "mirror", "clamp", "border"]
 AlphaMode = Literal["opaque", "mask", "blend"]
+
+
+@dataclass(frozen=True, slots=True)
+class Refusal:
+    """Why a valid spec cannot be done: a problem's code, the field at fault, and the reason."""
+
+    code: str
+    field: str
+    message: str
 
 
 class TechniqueSpec(Schema):
@@ -54,6 +65,14 @@ class TextureSpec(TechniqueSpec):
 
     surface_side: ClassVar[int] = 1024
     """Pixels along each side of its picture, where a surface wears it."""
+
+    def inner_size(self, size: tuple[int, int]) -> tuple[int, int]:
+        """Return the size that textures within are made at, where this one is made at `size`."""
+        return size
+
+    def refusals(self) -> Iterator[Refusal]:
+        """Tell what its numbers make impossible, beyond what its schema refuses."""
+        yield from ()
 
     def cost(self, pixels: int) -> Cost:
         """Estimate this technique at a number of pixels, without the textures nested in it."""
@@ -105,6 +124,15 @@ class LayoutSpec(TechniqueSpec):
     joins: ClassVar[tuple[Wrap, Wrap]] = ("clamp", "clamp")
     """What lies beyond the picture along u and v."""
 
+    @property
+    def proportion(self) -> tuple[int, int]:
+        """Width to height of the picture."""
+        return (1, 1)
+
+    def mistake(self) -> tuple[str, str] | None:
+        """Return which field is impossible and why, if JSON Schema could not say it."""
+        return None
+
 
 class SurfaceSpec(TechniqueSpec):
     """Says how a surface sends light to the eye, and how much of what is behind it is seen."""
@@ -146,6 +174,11 @@ class SurfaceSpec(TechniqueSpec):
         description="Which directions normal and bump maps tilt along: those that bakers use, the "
         "mean of the triangles round each corner, or the parallels and meridians of a globe round "
         "the y axis. They follow the coordinates of the normal map, without one the bump map's.",
+    )
+
+    light_map: LightMap | None = Field(
+        default=None,
+        description="Baked light that arrives besides the lamps', reflected as ambient light is.",
     )
 
     def filled(self) -> Self:

@@ -3,19 +3,55 @@
 from collections.abc import Callable, Iterable, Sequence
 
 from worker.rendering.chunks import Source, chunk, join
-from worker.rendering.shading_layout import LookupLayout, Parameter, ShadingLayout
+from worker.rendering.light_code import light_chunks, light_lines
+from worker.rendering.relief_fragment import aside, relief_chunks, tilts
+from worker.rendering.shading import is_lit
+from worker.rendering.shading_layout import (
+    LightLayout,
+    LookupLayout,
+    Parameter,
+    ShadingLayout,
+)
 
 VERSION = "#version 410 core"
+_SELECTED = ["uniform int selected;", "uniform float selected_last;"]
 _BY_OPACITY = {
     "mask": "    if (opacity < alpha_cutoff) discard;",
     "blend": "    color *= opacity;",
 }
 
 
-def surface_sources(layout: ShadingLayout, *, layered: bool) -> tuple[Source, Source]:
+def surface_sources(
+    layout: ShadingLayout, lights: LightLayout, *, layered: bool
+) -> tuple[Source, Source]:
     """Return the vertex and the fragment source that draw a layout, with or without all layers."""
-    fragment = _fragment(layout, layered)
+    fragment = _fragment(layout, lights, layered)
     return join(chunk("mesh.vert"), "mesh.vert"), join(fragment, layout.technique)
+
+
+def hole_sources(layout: ShadingLayout) -> tuple[Source, Source]:
+    """Return the sources that draw the depth alone, with holes where little or nothing is."""
+    read = [p for p in (layout.opacity, layout.selection) if p is not None]
+    numbers = list(dict.fromkeys(p.lookup for p in read if p.lookup is not None))
+    calls = [(call, number) for number in numbers for call in layout.lookups[number].calls]
+    chunks = ["lib/fragment.glsl", "lib/opacity.glsl", *(call.chunk for call, _ in calls)]
+    lines = _head(layout, chunks)
+    for call, number in calls:
+        lines += call.declarations(number)
+    for parameter in read:
+        lines += _declarations(parameter)
+    lines += [
+        *(_SELECTED if layout.selection else []),
+        "void main() {",
+        "    SurfacePoint point = surface_point();",
+        *_texels(layout, numbers, _place),
+    ]
+    lines += _selection(layout)
+    if layout.opacity:
+        cutoff = "alpha_cutoff" if layout.alpha_mode == "mask" else "0.5"
+        opacity = f"bounded({_value(layout.opacity)}, point.color.a)"
+        lines.append(f"    if ({opacity} < {cutoff}) discard;")
+    return join(chunk("mesh.vert"), "mesh.vert"), join("\n".join([*lines, "}"]), "hole")
 
 
 def background_sources(layout: ShadingLayout) -> tuple[Source, Source]:
@@ -37,27 +73,30 @@ def background_sources(layout: ShadingLayout) -> tuple[Source, Source]:
     return vertex, join("\n".join(lines), "background")
 
 
-def _fragment(layout: ShadingLayout, layered: bool) -> str:
-    parameters = [*layout.parameters, *([layout.opacity] if layout.opacity else [])]
+def _fragment(layout: ShadingLayout, lights: LightLayout, layered: bool) -> str:
+    others = (layout.opacity, layout.light_map, layout.selection)
+    parameters = [*layout.parameters, *(parameter for parameter in others if parameter)]
     chunks = ["lib/fragment.glsl", f"surfaces/{layout.technique}.glsl"]
     calls = [(call, n) for n, lookup in enumerate(layout.lookups) for call in lookup.calls]
     chunks += [call.chunk for call, _ in calls]
-    chunks += ["lib/normal_map.glsl"] if layout.normal is not None else []
+    chunks += relief_chunks(layout.relief)
     chunks += ["lib/opacity.glsl"] if layout.opacity else []
     chunks += ["lib/layers.glsl"] if layered else []
+    if is_lit(layout.technique):
+        chunks += light_chunks(lights)
     lines = _head(layout, chunks)
+    if is_lit(layout.technique):
+        lines += light_lines(lights)
     for call, number in calls:
         lines += call.declarations(number)
     for parameter in parameters:
         lines += _declarations(parameter)
-    if layout.normal is not None:
-        lines += ["uniform vec2 normal_range;", "uniform vec4 normal_axes;"]
+    lines += _SELECTED if layout.selection else []
     lines += ["void main() {", "    SurfacePoint point = surface_point();"]
-    if layout.normal is not None:
-        lines += _texels(layout, [layout.normal], _place)
-        lines += _tilt(layout.normal)
-    # After the tilt, so that a bumped mirror reflects by its bumps.
-    lines += _texels(layout, [n for n in range(len(layout.lookups)) if n != layout.normal], _place)
+    lines += _relief(layout)
+    lines += _selection(layout)
+    if layout.light_map:
+        lines.append(f"    baked_radiance = {_value(layout.light_map)};")
     lines.append("    Surface surface;")
     lines += [f"    surface.{p.name} = {_value(p)};" for p in layout.parameters]
     lines.append("    color = holdable(shade(point, surface));")
@@ -67,6 +106,17 @@ def _fragment(layout: ShadingLayout, layered: bool) -> str:
     if layered:
         lines.append("    write_layers(point, albedo(surface), color.a);")
     return "\n".join([*lines, "}"])
+
+
+def _selection(layout: ShadingLayout) -> list[str]:
+    """Write what leaves out the places of other surfaces; what is no number is the first one."""
+    if layout.selection is None:
+        return []
+    return [
+        f"    float chosen = {_value(layout.selection)};",
+        "    chosen = isnan(chosen) ? 0.0 : clamp(floor(chosen + 0.5), 0.0, selected_last);",
+        "    if (int(chosen) != selected) discard;",
+    ]
 
 
 def _head(layout: ShadingLayout, chunks: Sequence[str]) -> list[str]:
@@ -88,19 +138,58 @@ def _head(layout: ShadingLayout, chunks: Sequence[str]) -> list[str]:
     return lines
 
 
+def _relief(layout: ShadingLayout) -> list[str]:
+    """Write the readings of all pictures, and how some of them move and tilt the point.
+
+    What tilts is read first, so that a bumped mirror reflects by its bumps.
+    """
+    place = _place if layout.relief.parallax is None else _moved_place
+
+    def read(number: int) -> list[str]:
+        return _texels(layout, [number], place)
+
+    early = layout.relief.tilting
+    late = [number for number in range(len(layout.lookups)) if number not in early]
+    return [
+        *aside(layout, lambda number: _place(layout.lookups[number], number)),
+        *tilts(layout.relief, read, lambda number: place(layout.lookups[number], number)),
+        *_texels(layout, late, place),
+    ]
+
+
 def _texels(
     layout: ShadingLayout, numbers: Iterable[int], place: Callable[[LookupLayout, int], str]
 ) -> list[str]:
-    """Write the readings with these numbers; `place` gives the call that says where."""
+    """Write the readings with these numbers; `place` gives what says where."""
     lines = []
     for number in numbers:
-        lookup = layout.lookups[number]
-        lines.append(
-            f"    vec4 texel_{number} = sample_{lookup.filter}(picture_{lookup.picture}, "
-            f"look_up({place(lookup, number)}, lookup_transform[{number}], "
-            f"lookup_period[{number}], lookup_size[{number}]));"
-        )
+        where = place(layout.lookups[number], number)
+        if layout.lookups[number].returns == "Triplanar":
+            lines += _three_texels(layout.lookups[number], number, where)
+        else:
+            lines.append(
+                f"    vec4 texel_{number} = {_reading(layout.lookups[number], number, where)};"
+            )
     return lines
+
+
+def _three_texels(lookup: LookupLayout, number: int, where: str) -> list[str]:
+    """Write three readings, blended so that a constant picture is constant to the last bit."""
+    sides, texel = f"sides_{number}", f"texel_{number}"
+    x, y, z = (_reading(lookup, number, f"{sides}.along_{axis}") for axis in "xyz")
+    weights = f"{sides}.weights"
+    return [
+        f"    Triplanar {sides} = {where};",
+        f"    vec4 {texel} = {x};",
+        f"    {texel} += {weights}.y * ({y} - {texel}) + {weights}.z * ({z} - {texel});",
+    ]
+
+
+def _reading(lookup: LookupLayout, number: int, where: str) -> str:
+    return (
+        f"sample_{lookup.filter}(picture_{lookup.picture}, look_up({where}, "
+        f"lookup_transform[{number}], lookup_period[{number}], lookup_size[{number}]))"
+    )
 
 
 def _place(lookup: LookupLayout, number: int) -> str:
@@ -108,15 +197,11 @@ def _place(lookup: LookupLayout, number: int) -> str:
     text = "point"
     for call in lookup.calls:
         text = call.text(text, number)
-    return f"flat_reach({text})" if lookup.calls[-1].returns == "Reach" else text
+    return f"flat_reach({text})" if lookup.returns == "Reach" else text
 
 
-def _tilt(lookup: int) -> list[str]:
-    return [
-        f"    vec3 tilt = normal_range.x * texel_{lookup}.xyz + normal_range.y;",
-        "    tilt.xy = vec2(dot(normal_axes.xy, tilt.xy), dot(normal_axes.zw, tilt.xy));",
-        "    point.normal = tilted_normal(point, vertex_normal, tilt);",
-    ]
+def _moved_place(lookup: LookupLayout, number: int) -> str:
+    return f"moved({_place(lookup, number)}, aside)"
 
 
 def _declarations(parameter: Parameter) -> list[str]:

@@ -9,8 +9,10 @@ from typing import Any, Protocol
 import numpy as np
 
 from api_schemas.families import Meaning, TextureSpec
-from api_schemas.maps import ColorMap, Map, NormalMap, NumberMap, TextureTransform
+from api_schemas.maps import Map, TextureTransform
+from api_schemas.relief import AnyMap
 from worker.images.pyramids import Cut
+from worker.images.relief import Preparation
 from worker.rendering.calls import call_of
 from worker.rendering.samplers import Sampling
 from worker.rendering.shading_layout import LookupLayout
@@ -21,11 +23,18 @@ class TextureSource(Protocol):
     """Where uploaded textures come from."""
 
     def __call__(
-        self, spec: TextureSpec, meaning: Meaning, *, levels: bool, cut: Cut | None = None
+        self,
+        spec: TextureSpec,
+        meaning: Meaning,
+        *,
+        levels: bool,
+        cut: Cut | None = None,
+        preparation: Preparation | None = None,
     ) -> Texture:
         """Return the texture of a spec, with its mip levels if asked for.
 
-        With a cut, the levels have as many holes as the texture.
+        With a cut, the levels have as many holes as the texture. With a preparation, it holds what
+        that asks for.
         """
 
 
@@ -60,12 +69,13 @@ class Lookups:
 
     def add(
         self,
-        mapped: ColorMap | NumberMap | NormalMap,
+        mapped: AnyMap,
         meaning: Meaning,
         cut: Cut | None = None,
+        preparation: Preparation | None = None,
     ) -> int:
         """Return the number of a map's lookup, which may be that of an earlier map."""
-        picture = self._picture(mapped, mapped.texture, meaning, cut)
+        picture = self._picture(mapped, meaning, cut, preparation)
         where = (mapped.coordinates, mapped.layout, mapped.transform)
         key = json.dumps([picture, mapped.filter, *(part and part.model_dump() for part in where)])
         if key not in self._found:
@@ -105,11 +115,15 @@ class Lookups:
                 found |= call.values(spec, number)
         return found
 
-    def _picture(self, mapped: Map, spec: TextureSpec, meaning: Meaning, cut: Cut | None) -> int:
+    def _picture(
+        self, mapped: AnyMap, meaning: Meaning, cut: Cut | None, preparation: Preparation | None
+    ) -> int:
         u, v = mapped.wrap if mapped.layout is None else mapped.layout.joins
         sampling = Sampling.of((u, v), mapped.filter)
         border = tuple(mapped.border_color) if "border" in (u, v) else (0.0,) * 4
-        texture = self._texture_of(spec, meaning, levels=sampling.levels, cut=cut)
+        texture = self._texture_of(
+            mapped.texture, meaning, levels=sampling.levels, cut=cut, preparation=preparation
+        )
         picture = Picture(texture, sampling, border)
         if picture not in self.pictures:
             self.pictures.append(picture)

@@ -1,6 +1,7 @@
 """What decides a surface's program: everything the compiler must know, and nothing else."""
 
 from dataclasses import dataclass
+from typing import Literal
 
 from api_schemas.families import AlphaMode
 from api_schemas.maps import Filter
@@ -32,6 +33,11 @@ class LookupLayout:
     filter: Filter
     picture: int
 
+    @property
+    def returns(self) -> str:
+        """The GLSL type of what says where: a Footprint, a Reach or a Triplanar."""
+        return self.calls[-1].returns
+
 
 @dataclass(frozen=True, slots=True)
 class PictureLayout:
@@ -39,6 +45,59 @@ class PictureLayout:
 
     sampling: Sampling
     format: TextureFormat
+
+
+@dataclass(frozen=True, slots=True)
+class CookieLayout:
+    """A picture before a light: how texels become a pixel, and its texture unit."""
+
+    filter: Filter
+    picture: PictureLayout
+
+
+@dataclass(frozen=True, slots=True)
+class LightLayout:
+    """What the programs of lit surfaces know of a scene's lights.
+
+    Attributes:
+        shadows: Whether any casts shadows.
+        cookies: The pictures before them.
+    """
+
+    shadows: bool = False
+    cookies: tuple[CookieLayout, ...] = ()
+
+    @property
+    def samplers(self) -> tuple[str, ...]:
+        """The names of the cookies' texture units in the program."""
+        return tuple(f"cookie_{number}" for number in range(len(self.cookies)))
+
+
+@dataclass(frozen=True, slots=True)
+class ReliefLayout:
+    """What moves and tilts a point before anything else is read.
+
+    Attributes:
+        normal: The lookup of a map of normals, if there is one.
+        normal_space: What these are relative to.
+        bump: The lookup of a bump map.
+        height: The lookup of a relief's heights and slopes.
+        parallax: The lookup of a relief that the eye looks into.
+        parallax_method: How it looks.
+    """
+
+    normal: int | None
+    normal_space: Literal["tangent", "object"]
+    bump: int | None
+    height: int | None
+    parallax: int | None
+    parallax_method: Literal["offset", "occlusion"]
+
+    @property
+    def tilting(self) -> tuple[int, ...]:
+        """The lookups that tilt the normal."""
+        found = (self.normal, self.bump, self.height)
+        return tuple(lookup for lookup in found if lookup is not None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +109,9 @@ class ShadingLayout:
         parameters: In the order of its struct.
         alpha_mode: Whether opacity is ignored, cuts holes, or lets through what is behind.
         opacity: How it is read, unless it is ignored.
-        normal: The lookup that tilts the normal, if there is a normal map.
+        relief: What moves and tilts the point.
+        light_map: How baked light is read, if there is any.
+        selection: How the number is read that says which surface is where, if there are several.
         lookups: Readings of pictures.
         pictures: Texture units of maps, then of tables.
         tables: What the surface's own tables are called.
@@ -60,10 +121,17 @@ class ShadingLayout:
     parameters: tuple[Parameter, ...]
     alpha_mode: AlphaMode
     opacity: Parameter | None
-    normal: int | None
+    relief: ReliefLayout
+    light_map: Parameter | None
+    selection: Parameter | None
     lookups: tuple[LookupLayout, ...]
     pictures: tuple[PictureLayout, ...]
     tables: tuple[str, ...]
+
+    @property
+    def has_holes(self) -> bool:
+        """Whether not all of the mesh may be there."""
+        return self.alpha_mode != "opaque" or self.selection is not None
 
     @property
     def samplers(self) -> tuple[str, ...]:
