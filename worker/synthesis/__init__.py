@@ -34,7 +34,7 @@ import pkgutil
 from collections import Counter
 from typing import TYPE_CHECKING, cast
 
-from api_schemas.families import Meaning, TextureSpec
+from api_schemas.families import Meaning, PresetSpec, TextureSpec
 from api_schemas.language import FAMILIES
 from api_schemas.maps import DATA
 from api_schemas.parameters import ParameterMap
@@ -180,6 +180,8 @@ def closed_form(
         solid: Whether it is asked for in space, else in the plane w = 0.
         meaning: Of the slot that the texture itself is in.
     """
+    if isinstance(spec, PresetSpec):
+        return closed_form(spec.composed(), solid=solid, meaning=meaning)
     module = _module(spec.technique)
     parameters = module.closed_form(spec, solid=solid) if hasattr(module, "closed_form") else None
     if parameters is None:
@@ -224,6 +226,8 @@ def _fill(
 
 def _slots(spec: TextureSpec, meaning: Meaning) -> dict[str, tuple[TextureSpec, Meaning]]:
     """Return the textures directly within a spec, each with the meaning of its slot."""
+    if isinstance(spec, PresetSpec):
+        return {"composed": (spec.composed(), meaning)}
     slots = {}
     for name, field in type(spec).model_fields.items():
         value = getattr(spec, name)
