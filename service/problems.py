@@ -41,7 +41,7 @@ TABLE: Final[Mapping[str, tuple[int, str]]] = {
     "transform_singular": (409, "A transform cannot be undone"),
     "nesting_too_deep": (409, "Too many levels within each other"),
     "too_many_nodes": (409, "Too many textures or scene nodes"),
-    "too_many_maps": (409, "Too many maps on one surface"),
+    "too_many_maps": (409, "Too many maps at once"),
     "time_step_unstable": (409, "The steps of a reaction are too long to be stable"),
     "no_steady_state": (409, "The chemicals of a reaction are nowhere at rest"),
     "reaction_diverged": (409, "The chemicals of a reaction grew without end"),
