@@ -15,8 +15,10 @@ from api_schemas.base import Schema
 from api_schemas.cost import Cost
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from api_schemas.language import MappableNonNegative
-    from api_schemas.maps import NormalMap
+    from api_schemas.maps import LightMap, NormalMap
     from api_schemas.relief import BumpMap, HeightMap, ParallaxMap, TangentFrames
 
 Meaning = Literal["colour", "data"]
@@ -85,6 +87,34 @@ class TextureSpec(TechniqueSpec):
         return self.cost(voxels)
 
 
+class PresetSpec(TextureSpec):
+    """A composition of other techniques with a name, and parameters of its own."""
+
+    solid: ClassVar[bool] = True
+    pointwise: ClassVar[bool] = True
+
+    def composed(self) -> TextureSpec:
+        """Return the composition, of solid textures."""
+        raise NotImplementedError
+
+    def cost(self, pixels: int) -> Cost:
+        """Estimate all that it is composed of."""
+        return sum((part.cost(pixels) for part in textures_in(self.composed())), Cost())
+
+    def volume_cost(self, voxels: int) -> Cost:
+        """Estimate all that it is composed of."""
+        return sum((part.volume_cost(voxels) for part in textures_in(self.composed())), Cost())
+
+
+def textures_in(texture: TextureSpec) -> Iterator[TextureSpec]:
+    """Yield a texture and all that are nested in it."""
+    yield texture
+    for name in type(texture).model_fields:
+        value = getattr(texture, name)
+        if isinstance(value, TextureSpec):
+            yield from textures_in(value)
+
+
 class CoordinatesSpec(TechniqueSpec):
     """Says which vector of the surface point a map is looked up with."""
 
@@ -148,6 +178,11 @@ class SurfaceSpec(TechniqueSpec):
         description="Which directions normal and bump maps tilt along: those that bakers use, the "
         "mean of the triangles round each corner, or the parallels and meridians of a globe round "
         "the y axis. They follow the coordinates of the normal map, without one the bump map's.",
+    )
+
+    light_map: LightMap | None = Field(
+        default=None,
+        description="Baked light that arrives besides the lamps', reflected as ambient light is.",
     )
 
     def filled(self) -> Self:

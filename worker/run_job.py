@@ -19,6 +19,7 @@ from worker.errors import AssetMissingError
 from worker.fingerprint import fingerprint
 from worker.images.image import Image
 from worker.images.volume import Volume
+from worker.preview import Preview
 from worker.rendering import renderer
 from worker.rendering.packing import PICTURE
 from worker.rendering.texture_maker import TextureMaker
@@ -46,7 +47,8 @@ def run(request: dict[str, Any], out: Path, report: Report) -> dict[str, Any]:
     """Make the picture a request asks for and write it to `out`.
 
     Args:
-        request: `kind`, the normalised `body`, its `digest`, and the folder of `assets`.
+        request: `kind`, the normalised `body`, its `digest`, the folder of `assets`, and
+            where a `preview` may be left.
         out: Where the file is written; whoever asked gives it its final name.
         report: Told the share of the job that is done, 0..1, and the name of the stage.
 
@@ -84,7 +86,13 @@ def run(request: dict[str, Any], out: Path, report: Report) -> dict[str, Any]:
         counts, found, warnings = drawn.counts, drawn.report, drawn.warnings
     else:
         with stages.stage("synthesise", 0.02, 0.85) as progress:
-            made = synthesis.outcome(body.texture, (width, height), pictures.read, report=progress)
+            made = synthesis.outcome(
+                body.texture,
+                (width, height),
+                pictures.read,
+                report=progress,
+                show=Preview(Path(request["preview"])).show,
+            )
         found = made.report
         with stages.stage("encode", 0.85, 0.98):
             band = {PICTURE: made.image} | {name: made.layers[name] for name in body.output.layers}
