@@ -115,6 +115,7 @@ OBSTACLE_CODES: Final = (
     "nesting_too_deep",
     "too_many_nodes",
     "too_many_maps",
+    "coordinates_missing",
     "layers_need_exr",
     "layer_unknown",
     "over_budget",

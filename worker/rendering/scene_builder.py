@@ -1,5 +1,6 @@
 """From a request's scene to drawables: nodes placed, meshes and textures uploaded or found."""
 
+import functools
 import itertools
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
@@ -26,7 +27,7 @@ from worker.images.pyramids import Cut, keep_coverage, mip_chain
 from worker.images.relief import Preparation, prepared
 from worker.models.model import Model, Part
 from worker.rendering.cache import ByteCache
-from worker.rendering.displacing import with_relief
+from worker.rendering.displacing import levels_of, with_relief
 from worker.rendering.model_changes import seen_parts
 from worker.rendering.pyrender_scene import Background, Drawable, View
 from worker.rendering.relief_shading import TangentsWanted, tangents_wanted
@@ -116,14 +117,16 @@ class SceneBuilder:
                 model = reader(node.mesh)
                 models.append(PlacedModel(model, matrix))
                 found = list(_parts(node.mesh, node.surface, model, matrix))
+                triangles = model.triangles
             elif node.mesh is not None:
                 key = node.mesh.model_dump_json()
                 make = partial(primitives.build, node.mesh)
                 found = [_Placed(key, make, node.surface or _MATT_GREY, matrix)]
+                triangles = node.mesh.triangles
             else:
                 continue
             if node.displacement is not None:
-                found = [_displaced(item, node.displacement, maker) for item in found]
+                found = list(_displaced(found, node.displacement, triangles, maker))
             placed += found
         kept = [self._kept(item, tangents) for item in placed]
         worn: dict[str, tuple[Shading, int]] = {}
@@ -229,11 +232,18 @@ def _parts(
         )
 
 
-def _displaced(item: _Placed, spec: Displacement, maker: TextureMaker) -> _Placed:
-    def mesh() -> Mesh:
-        return with_relief(item.mesh(), spec, maker(spec.texture, "data"))
+def _displaced(
+    items: list[_Placed], spec: Displacement, triangles: int, maker: TextureMaker
+) -> Iterator[_Placed]:
+    levels = levels_of(spec, triangles)
+    image = functools.cache(lambda: maker(spec.texture, "data"))
 
-    return replace(item, key=f"{item.key} {spec.model_dump_json()}", mesh=mesh)
+    def moved(make: Callable[[], Mesh]) -> Mesh:
+        return with_relief(make(), spec, levels, image())
+
+    for item in items:
+        key = f"{item.key} {levels} {spec.model_dump_json()}"
+        yield replace(item, key=key, mesh=partial(moved, item.mesh))
 
 
 def _mesh_of(part: Part) -> Mesh:
