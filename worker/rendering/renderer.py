@@ -123,7 +123,7 @@ def render(
     timings = {"build_ms": _milliseconds(time.perf_counter() - start)}
     counts = {"triangles": built.triangles, "texels": built.texels}
     drawn = _bands(engine, placed, lights, output, timings, report)
-    return Rendering(drawn, counts, timings, {}, built.warnings)
+    return Rendering(drawn, counts, timings, built.report, built.warnings)
 
 
 def _bands(

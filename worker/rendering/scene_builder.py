@@ -2,10 +2,10 @@
 
 import functools
 import itertools
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
 from functools import partial
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -19,8 +19,9 @@ from api_schemas.scene import Node, Scene
 from api_schemas.surfaces.phong import PhongSpec
 from api_schemas.surfaces.unlit import UnlitSpec
 from worker.geometry import primitives
+from worker.geometry.frames import framed
 from worker.geometry.mesh import Mesh
-from worker.geometry.tangents import with_tangents
+from worker.geometry.singularities import singularities
 from worker.geometry.transforms import Matrix, parent_from_node
 from worker.images.image import Image
 from worker.images.pyramids import Cut, keep_coverage, mip_chain
@@ -70,6 +71,7 @@ class BuiltScene:
     background: Background | None
     triangles: int
     texels: int
+    report: dict[str, Any]
     warnings: tuple[str, ...]
 
 
@@ -83,13 +85,21 @@ class _Placed:
     world_from_object: Matrix
 
 
+@dataclass(frozen=True, slots=True)
+class _Kept:
+    """A mesh in OpenGL, and where normal and bump maps have no direction on it."""
+
+    mesh: VertexArray
+    frames: Mapping[str, Any] | None
+
+
 class SceneBuilder:
     """Keeps meshes and textures of earlier scenes, by content."""
 
     def __init__(self) -> None:
         """Begin with nothing in OpenGL."""
         self._textures = ByteCache[Texture](TEXTURE_BYTES_MAX, Texture.delete)
-        self._meshes = ByteCache[VertexArray](MESH_BYTES_MAX, VertexArray.delete)
+        self._meshes = ByteCache[_Kept](MESH_BYTES_MAX, lambda kept: kept.mesh.delete())
 
     def build(
         self,
@@ -131,7 +141,8 @@ class SceneBuilder:
             if node.displacement is not None:
                 found = list(_displaced(found, node.displacement, triangles, maker))
             placed += found
-        kept = [self._kept(item, tangents) for item in placed]
+        found_kept = [self._kept(item, tangents) for item in placed]
+        kept = [found.mesh for found in found_kept]
         worn: dict[str, tuple[Shading, int]] = {}
         drawables = []
         for item, mesh in zip(placed, kept, strict=True):
@@ -163,6 +174,7 @@ class SceneBuilder:
             cookies=cookies,
             triangles=sum(len(mesh.elements) for mesh in kept),
             texels=sum(texture.width * texture.height for texture in textures.values()),
+            report=_report(found_kept),
             warnings=tuple(
                 dict.fromkeys(itertools.chain(*(item.model.warnings for item in models), left_out))
             ),
@@ -173,19 +185,21 @@ class SceneBuilder:
         self._textures.trim()
         self._meshes.trim()
 
-    def _kept(self, item: _Placed, tangents: bool) -> VertexArray:
-        wanted = tangents_wanted(item.surface)
-        if tangents and wanted is None:
-            wanted = TangentsWanted(0, item.surface.tangents)
+    def _kept(self, item: _Placed, tangents: bool) -> _Kept:
+        asked = tangents_wanted(item.surface)
+        wanted = asked or (TangentsWanted(0, item.surface.tangents) if tangents else None)
 
-        def make() -> tuple[VertexArray, int]:
+        def make() -> tuple[_Kept, int]:
             mesh = item.mesh()
+            told = None
+            if asked is not None and mesh.kind == "triangles" and mesh.triangles.size:
+                told = asdict(asked) | dict(singularities(mesh, asked.uv_set).as_report())
             if wanted is not None:
-                mesh = with_tangents(mesh, wanted.uv_set)
+                mesh = framed(mesh, wanted.frames, wanted.uv_set)
             uploaded = VertexArray.upload(mesh)
-            return uploaded, uploaded.size_bytes
+            return _Kept(uploaded, told), uploaded.size_bytes
 
-        return self._meshes.get((item.key, wanted), make)
+        return self._meshes.get((item.key, wanted, asked is None), make)
 
     def _shading(self, surface: SurfaceSpec, maker: TextureMaker) -> Shading:
         return shade(surface, self._source(maker))
@@ -217,6 +231,16 @@ class SceneBuilder:
             surface = UnlitSpec(technique="unlit", color=spec.model_copy(update=where))
             return self._shading(surface, maker)
         return tuple(min(value, LARGEST_LIGHT) for value in spec)
+
+
+def _report(kept: Sequence[_Kept]) -> dict[str, Any]:
+    """Tell of each object, numbered as in the layer object_id, that normal or bump maps lie on."""
+    frames = [
+        {"object": number, **item.frames}
+        for number, item in enumerate(kept, start=1)
+        if item.frames is not None
+    ]
+    return {"frames": frames} if frames else {}
 
 
 def _nodes(nodes: list[Node], world_from_parent: Matrix) -> Iterator[tuple[Node, Matrix]]:
