@@ -56,8 +56,7 @@ def _without_coordinates(node: Node, pointer: str) -> Iterator[Obstacle]:
 
 
 def _worn(node: Node) -> Iterator[tuple[str, Schema]]:
-    shown = [("/mesh", node.mesh)] + [("/surface", node.surface)] * (node.surface is not None)
-    for pointer, part in shown:
-        for inner, found in parts(part):
+    for name in ("mesh", "surface", "surface_map"):
+        for inner, found in parts(getattr(node, name), f"/{name}"):
             if isinstance(found, SurfaceSpec):
-                yield f"{pointer}{inner}", found
+                yield inner, found

@@ -19,7 +19,7 @@ from worker.fingerprint import fingerprint
 from worker.images.image import Image
 from worker.rendering import renderer
 from worker.rendering.packing import PICTURE
-from worker.rendering.scene_builder import TextureMaker
+from worker.rendering.placing import TextureMaker
 from worker.stages import Report, Stages, Timed
 from worker.uploaded_models import UploadedModels
 from worker.uploaded_pictures import UploadedPictures

@@ -1,63 +1,31 @@
 """From a request's scene to drawables: nodes placed, meshes and textures uploaded or found."""
 
-import functools
 import itertools
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
-from functools import partial
-from typing import Any, Protocol
-
-import numpy as np
+from dataclasses import dataclass
+from typing import Any
 
 from api_schemas.coordinates.uv import UvSpec
 from api_schemas.families import Meaning, SurfaceSpec, TextureSpec
 from api_schemas.lights import Light
 from api_schemas.maps import ColorMap
-from api_schemas.model_mesh import ModelMesh
-from api_schemas.relief import Displacement
-from api_schemas.scene import Node, Scene
-from api_schemas.surfaces.phong import PhongSpec
+from api_schemas.scene import Scene
 from api_schemas.surfaces.unlit import UnlitSpec
-from worker.geometry import primitives
-from worker.geometry.frames import framed
-from worker.geometry.mesh import Mesh
-from worker.geometry.singularities import singularities
-from worker.geometry.transforms import Matrix, parent_from_node
 from worker.images.image import Image
 from worker.images.pyramids import Cut, keep_coverage, mip_chain
 from worker.images.relief import Preparation, prepared
-from worker.models.model import Model, Part
 from worker.rendering.cache import ByteCache
 from worker.rendering.cookies import Cookies, cookies_of
-from worker.rendering.displacing import levels_of, with_relief
+from worker.rendering.kept_meshes import MeshCache, frames_report
 from worker.rendering.lookups import TextureSource
-from worker.rendering.model_changes import seen_parts
+from worker.rendering.placing import ModelReader, TextureMaker, place
 from worker.rendering.pyrender_scene import Background, Drawable, View
-from worker.rendering.relief_shading import TangentsWanted, tangents_wanted
 from worker.rendering.shading import Shading, shade
-from worker.rendering.staging import PlacedModel, lights_of, view_of
+from worker.rendering.staging import lights_of, view_of
 from worker.rendering.textures import Texture
-from worker.rendering.vertex_arrays import VertexArray
 
 TEXTURE_BYTES_MAX = 128 << 20
-MESH_BYTES_MAX = 64 << 20
 LARGEST_LIGHT = 5e36
 """Of a picture, as in lib/picture.glsl."""
-_MATT_GREY = PhongSpec(technique="phong")
-
-
-class TextureMaker(Protocol):
-    """Turns a texture of the language into a picture."""
-
-    def __call__(self, spec: TextureSpec, meaning: Meaning, /) -> Image:
-        """Return the picture, read as colour or as data."""
-
-
-class ModelReader(Protocol):
-    """Reads uploaded models."""
-
-    def __call__(self, mesh: ModelMesh, /) -> Model:
-        """Return the model."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,31 +43,13 @@ class BuiltScene:
     warnings: tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class _Placed:
-    """A mesh that is kept or can be made, its surface, and where it stands."""
-
-    key: str
-    mesh: Callable[[], Mesh]
-    surface: SurfaceSpec
-    world_from_object: Matrix
-
-
-@dataclass(frozen=True, slots=True)
-class _Kept:
-    """A mesh in OpenGL, and where normal and bump maps have no direction on it."""
-
-    mesh: VertexArray
-    frames: Mapping[str, Any] | None
-
-
 class SceneBuilder:
     """Keeps meshes and textures of earlier scenes, by content."""
 
     def __init__(self) -> None:
         """Begin with nothing in OpenGL."""
         self._textures = ByteCache[Texture](TEXTURE_BYTES_MAX, Texture.delete)
-        self._meshes = ByteCache[_Kept](MESH_BYTES_MAX, lambda kept: kept.mesh.delete())
+        self._meshes = MeshCache()
 
     def build(
         self,
@@ -123,36 +73,28 @@ class SceneBuilder:
             WorkerError: The camera is degenerate, a budget is exceeded, a texture cannot be made,
                 a model cannot be read or has no such part.
         """
-        placed: list[_Placed] = []
-        models: list[PlacedModel] = []
-        for node, matrix in _nodes(scene.nodes, np.eye(4)):
-            if isinstance(node.mesh, ModelMesh):
-                model = reader(node.mesh)
-                models.append(PlacedModel(model, matrix))
-                found = list(_parts(node.mesh, node.surface, model, matrix))
-                triangles = model.triangles
-            elif node.mesh is not None:
-                key = node.mesh.model_dump_json()
-                make = partial(primitives.build, node.mesh)
-                found = [_Placed(key, make, node.surface or _MATT_GREY, matrix)]
-                triangles = node.mesh.triangles
-            else:
-                continue
-            if node.displacement is not None:
-                found = list(_displaced(found, node.displacement, triangles, maker))
-            placed += found
-        found_kept = [self._kept(item, tangents) for item in placed]
-        kept = [found.mesh for found in found_kept]
+        placed, models = place(scene.nodes, maker, reader)
+        kept = [self._meshes.get(item, tangents) for item in placed]
         worn: dict[str, tuple[Shading, int]] = {}
         drawables = []
-        for item, mesh in zip(placed, kept, strict=True):
-            key = item.surface.model_dump_json()
+        for item, found in zip(placed, kept, strict=True):
+            key = item.worn
             if key not in worn:
-                worn[key] = self._shading(item.surface, maker), len(worn) + 1
-            drawables.append(Drawable(mesh, worn[key][0], item.world_from_object, worn[key][1]))
+                shading = shade(item.surface, self._source(maker), item.selection)
+                worn[key] = shading, len(worn) + 1
+            drawables.append(
+                Drawable(
+                    found.mesh,
+                    worn[key][0],
+                    item.world_from_object,
+                    worn[key][1],
+                    item.thing,
+                    item.node.casts_shadows,
+                )
+            )
         vertices = (
-            (mesh.positions, item.world_from_object)
-            for item, mesh in zip(placed, kept, strict=True)
+            (found.mesh.positions, item.world_from_object)
+            for item, found in zip(placed, kept, strict=True)
         )
         view = view_of(scene.camera, models, vertices, aspect)
         lights, left_out = lights_of(scene.lights, models, view.world_from_camera)
@@ -172,9 +114,9 @@ class SceneBuilder:
             background=background,
             lights=tuple(lights),
             cookies=cookies,
-            triangles=sum(len(mesh.elements) for mesh in kept),
+            triangles=sum(len(found.mesh.elements) for found in kept),
             texels=sum(texture.width * texture.height for texture in textures.values()),
-            report=_report(found_kept),
+            report=frames_report(placed, kept),
             warnings=tuple(
                 dict.fromkeys(itertools.chain(*(item.model.warnings for item in models), left_out))
             ),
@@ -184,22 +126,6 @@ class SceneBuilder:
         """Free what exceeds the bounds; call it when nothing is being drawn."""
         self._textures.trim()
         self._meshes.trim()
-
-    def _kept(self, item: _Placed, tangents: bool) -> _Kept:
-        asked = tangents_wanted(item.surface)
-        wanted = asked or (TangentsWanted(0, item.surface.tangents) if tangents else None)
-
-        def make() -> tuple[_Kept, int]:
-            mesh = item.mesh()
-            told = None
-            if asked is not None and mesh.kind == "triangles" and mesh.triangles.size:
-                told = asdict(asked) | dict(singularities(mesh, asked.uv_set).as_report())
-            if wanted is not None:
-                mesh = framed(mesh, wanted.frames, wanted.uv_set)
-            uploaded = VertexArray.upload(mesh)
-            return _Kept(uploaded, told), uploaded.size_bytes
-
-        return self._meshes.get((item.key, wanted, asked is None), make)
 
     def _shading(self, surface: SurfaceSpec, maker: TextureMaker) -> Shading:
         return shade(surface, self._source(maker))
@@ -231,55 +157,6 @@ class SceneBuilder:
             surface = UnlitSpec(technique="unlit", color=spec.model_copy(update=where))
             return self._shading(surface, maker)
         return tuple(min(value, LARGEST_LIGHT) for value in spec)
-
-
-def _report(kept: Sequence[_Kept]) -> dict[str, Any]:
-    """Tell of each object, numbered as in the layer object_id, that normal or bump maps lie on."""
-    frames = [
-        {"object": number, **item.frames}
-        for number, item in enumerate(kept, start=1)
-        if item.frames is not None
-    ]
-    return {"frames": frames} if frames else {}
-
-
-def _nodes(nodes: list[Node], world_from_parent: Matrix) -> Iterator[tuple[Node, Matrix]]:
-    for node in nodes:
-        matrix = world_from_parent @ parent_from_node(node.transform)
-        yield node, matrix
-        yield from _nodes(node.children, matrix)
-
-
-def _parts(
-    mesh: ModelMesh, surface: SurfaceSpec | None, model: Model, matrix: Matrix
-) -> Iterator[_Placed]:
-    # Keys of parts are a model's own, and one file is another model for each set and scene.
-    own = f"{mesh.asset} {sorted(mesh.files.items())} {mesh.scene}"
-    for part, worn in seen_parts(mesh, model):
-        yield _Placed(
-            key=f"{own} {part.key}",
-            mesh=partial(_mesh_of, part),
-            surface=surface or worn or _MATT_GREY,
-            world_from_object=matrix @ part.matrix,
-        )
-
-
-def _displaced(
-    items: list[_Placed], spec: Displacement, triangles: int, maker: TextureMaker
-) -> Iterator[_Placed]:
-    levels = levels_of(spec, triangles)
-    image = functools.cache(lambda: maker(spec.texture, "data"))
-
-    def moved(make: Callable[[], Mesh]) -> Mesh:
-        return with_relief(make(), spec, levels, image())
-
-    for item in items:
-        key = f"{item.key} {levels} {spec.model_dump_json()}"
-        yield replace(item, key=key, mesh=partial(moved, item.mesh))
-
-
-def _mesh_of(part: Part) -> Mesh:
-    return part.mesh
 
 
 def _upload(image: Image, levels: bool, cut: Cut | None) -> tuple[Texture, int]:
