@@ -15,6 +15,7 @@ from api_schemas.bodies import (
     SECONDS_PER_TEXEL,
     Body,
     body,
+    displaced,
 )
 from api_schemas.camera import Camera, FramedCamera, ModelCamera, PosedCamera
 from api_schemas.cookies import Cookie
@@ -25,7 +26,7 @@ from api_schemas.geometry import IDENTITY, Affine, Vector3, affine
 from api_schemas.light_cost import cookies_of, seconds_of_shadows, shadow_maps
 from api_schemas.lights import LIGHTS_MAX
 from api_schemas.output_cost import samples_of, sampling, tiles_of, writing
-from api_schemas.relief import AnyMap
+from api_schemas.relief import AnyMap, ParallaxMap
 from api_schemas.requests import RenderRequest, Request
 from api_schemas.scene import Node
 from api_schemas.textures.image import ImageSpec
@@ -39,6 +40,7 @@ SECONDS_PER_MAP_SAMPLE = {
     "trilinear": 2e-8,
     "anisotropic": 1.5e-7,
 }
+SECONDS_PER_PARALLAX_STEP = 2e-8
 SECONDS_TO_COMPILE_A_MAP = 0.12
 SECONDS_PER_DRAWN_TRIANGLE = 5e-8
 SECONDS_PER_DRAW = 2e-4
@@ -89,7 +91,7 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
     cost = sampling(request.output)
     scene = request.scene
     drawn = [
-        (node, _moved(placed, found.middle), found)
+        (node, _moved(placed, found.middle), displaced(found, node.displacement))
         for node, placed in _placed(scene.nodes, IDENTITY)
         if node.mesh is not None and (found := body(node.mesh, facts)) is not None
     ]
@@ -122,7 +124,7 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
         shown = node.surface or node.mesh
         surfaces = [part for _, part in parts(shown) if isinstance(part, SurfaceSpec)]
         maps = [_maps(surface) for surface in surfaces]
-        for worn in maps:
+        for worn in [*maps, _maps(node.displacement)]:
             cost += textures.cost(worn)
         own = MAPS_OF_A_MATERIAL * found.pictures * SECONDS_PER_MAP_SAMPLE["anisotropic"]
         shading = lighting + max([own, *map(_seconds_per_sample, maps)])
@@ -144,7 +146,13 @@ def _maps(value: object) -> list[MAPS]:
 
 def _seconds_per_sample(maps: Sequence[MAPS]) -> float:
     """Return the seconds that looking up all of them once takes."""
-    return sum(SECONDS_PER_MAP_SAMPLE[item.filter] for item in maps)
+    return sum(_seconds_per_look(item) for item in maps)
+
+
+def _seconds_per_look(item: MAPS) -> float:
+    if isinstance(item, ParallaxMap):
+        return SECONDS_PER_PARALLAX_STEP * (1 if item.method == "offset" else item.steps)
+    return SECONDS_PER_MAP_SAMPLE[item.filter]
 
 
 def _moved(placed: Affine | None, middle: Vector3) -> Affine | None:

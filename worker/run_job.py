@@ -20,7 +20,7 @@ from worker.images.image import Image
 from worker.preview import Preview
 from worker.rendering import renderer
 from worker.rendering.packing import PICTURE
-from worker.rendering.scene_builder import TextureMaker
+from worker.rendering.placing import TextureMaker
 from worker.stages import Report, Stages, Timed
 from worker.uploaded_models import UploadedModels
 from worker.uploaded_pictures import UploadedPictures
