@@ -21,6 +21,7 @@ from api_schemas.cost import Cost
 from api_schemas.coverage import coverage, stand_in
 from api_schemas.families import SurfaceSpec, TextureSpec
 from api_schemas.geometry import IDENTITY, Affine, Vector3, affine
+from api_schemas.light_cost import seconds_of_shadows, shadow_maps
 from api_schemas.lights import LIGHTS_MAX
 from api_schemas.output_cost import samples_of, sampling, tiles_of, writing
 from api_schemas.relief import AnyMap
@@ -96,14 +97,17 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
         else len(scene.lights)
     )
     lighting = SECONDS_PER_SHADED_SAMPLE + shining * SECONDS_PER_LIGHT_SAMPLE
+    lighting += seconds_of_shadows(scene.lights or [])
     textures = _WornTextures(facts)
     background = _maps(scene.background)
     cost += textures.cost(background)
     cost += Cost(samples * _seconds_per_sample(background))
     made = set()
+    once = 0.0
     for node, placed, found in drawn:
         drawing = found.draws * SECONDS_PER_DRAW + found.pieces * SECONDS_PER_DRAWN_TRIANGLE
         cost += Cost(tiles * drawing)
+        once += drawing
         if found.key not in made:
             made.add(found.key)
             cost += found.making
@@ -122,6 +126,7 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
             covered *= 2  # what is behind its front is shaded too
             cost += Cost(found.pieces * SECONDS_PER_SORTED_TRIANGLE)
         cost += Cost(samples * covered * shading)
+    cost += shadow_maps(scene.lights or [], once)
     # Equal things are made once, one after another, and kept: only the largest counts twice.
     return cost + Cost(bytes=textures.making)
 

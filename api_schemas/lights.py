@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from api_schemas.base import Color, NonNegative, Schema, Vector
+from api_schemas.shadows import Shadow
 
 LIGHTS_MAX = 32
 """Lights of one scene."""
@@ -21,7 +22,15 @@ class AmbientLight(Schema):
     )
 
 
-class DirectionalLight(Schema):
+class _CastingLight(Schema):
+    """A light from somewhere, so that there is a side it does not reach."""
+
+    shadow: Shadow | None = Field(
+        default=None, description="How it is kept from what lies behind things; not at all without."
+    )
+
+
+class DirectionalLight(_CastingLight):
     """Parallel light, as from the sun."""
 
     type: Literal["directional"]
@@ -32,7 +41,7 @@ class DirectionalLight(Schema):
     )
 
 
-class PointLight(Schema):
+class PointLight(_CastingLight):
     """Light from one point, falling with the square of the distance."""
 
     type: Literal["point"]
@@ -41,7 +50,7 @@ class PointLight(Schema):
     intensity: NonNegative = Field(default=1.0, description="Brightness in W/sr.")
 
 
-class SpotLight(Schema):
+class SpotLight(_CastingLight):
     """A point light that shines into a cone with a soft edge."""
 
     type: Literal["spot"]

@@ -75,6 +75,13 @@ class ReliefLayout:
 
 
 @dataclass(frozen=True, slots=True)
+class LightLayout:
+    """What the programs of lit surfaces know of a scene's lights: whether any casts shadows."""
+
+    shadows: bool = False
+
+
+@dataclass(frozen=True, slots=True)
 class ShadingLayout:
     """What decides a program; equal layouts share a program object.
 
