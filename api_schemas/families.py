@@ -53,6 +53,11 @@ class TextureSpec(TechniqueSpec):
     surface_side: ClassVar[int] = 1024
     """Pixels along each side of its picture, where a surface wears it."""
 
+    @property
+    def surface_size(self) -> tuple[int, int]:
+        """Width and height of its picture, where a surface wears it."""
+        return (self.surface_side, self.surface_side)
+
     def cost(self, pixels: int) -> Cost:
         """Estimate this technique at a number of pixels, without the textures nested in it."""
         return Cost(seconds=pixels * 2e-8, bytes=pixels * 32)

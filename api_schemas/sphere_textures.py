@@ -1,6 +1,7 @@
 """What the specs share that work on pictures of all directions."""
 
-from typing import TYPE_CHECKING, Annotated, Literal
+import math
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 from pydantic import Field
 
@@ -15,6 +16,8 @@ if TYPE_CHECKING:
 
 class SphereTextureSpec(TextureSpec):
     """Takes a picture of the light from all directions, and makes another one."""
+
+    cube_side: ClassVar[int] = 512
 
     environment: Annotated["Texture", OWN_SIZE, COLOUR] = Field(
         description="The light: an upload with its own pixels, or any technique. Alpha is ignored; "
@@ -35,6 +38,13 @@ class SphereTextureSpec(TextureSpec):
         description="Whether what is no number counts as dark, and what is infinite as the "
         "brightest that is finite, or the job fails where there is any.",
     )
+
+    @property
+    def surface_size(self) -> tuple[int, int]:
+        """As many texels as a cube of this side has, in the proportion of the layout."""
+        width, height = self.to.proportion
+        unit = max(1, round(self.cube_side * math.sqrt(6 / (width * height))))
+        return (width * unit, height * unit)
 
     def cost(self, pixels: int) -> Cost:
         """Every direction is looked up a few times, and the source is read."""

@@ -29,6 +29,8 @@ class IrradianceSpec(SphereTextureSpec):
         "A = pi, 2 pi / 3, pi / 4"
     )
 
+    cube_side: ClassVar[int] = 24
+
     technique: Literal["irradiance"]
     environment: Annotated["Texture | None", OWN_SIZE, COLOUR] = Field(
         default=None,

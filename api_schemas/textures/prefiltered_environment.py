@@ -27,6 +27,8 @@ class PrefilteredEnvironmentSpec(SphereTextureSpec):
         "max(0, w.r)^n"
     )
 
+    cube_side: ClassVar[int] = 96
+
     technique: Literal["prefiltered_environment"]
     roughness: Annotated[list[Roughness], Field(min_length=1, max_length=PANELS_MAX)] = Field(
         default=[0.5], description="Of each picture, from a mirror (0) to dull (1)."
@@ -45,6 +47,13 @@ class PrefilteredEnvironmentSpec(SphereTextureSpec):
         default="light",
         description="The picture, or how far it is from the sum over all texels.",
     )
+
+    @property
+    def surface_size(self) -> tuple[int, int]:
+        """Twice as high where there are panels below the first."""
+        width, height = super().surface_size
+        panels = len(self.exponents or self.roughness)
+        return (width, height if panels == 1 else 2 * height)
 
     def cost(self, pixels: int) -> Cost:
         """A few hundred pieces of the sky for every pixel, or all texels of a cube."""

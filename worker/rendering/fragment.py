@@ -10,6 +10,7 @@ from worker.rendering.shading_layout import (
     LookupLayout,
     Parameter,
     ShadingLayout,
+    SkyKind,
 )
 
 VERSION = "#version 410 core"
@@ -76,6 +77,22 @@ def background_sources(layout: ShadingLayout) -> tuple[Source, Source]:
     return vertex, join("\n".join(lines), "background")
 
 
+def sky_sources(kind: SkyKind) -> tuple[Source, Source]:
+    """Return the sources that draw what is behind everything as the eye looks through it."""
+    lines = [
+        VERSION,
+        '#include "lib/sky_background.glsl"',
+        f'#include "skies/{kind}.glsl"',
+        "void main() {",
+        "    vec3 towards = ray();",
+        "    float reach = max(length(dFdx(towards)), length(dFdy(towards)));",
+        "    color = holdable(vec4(sky_in_mirror(towards, reach, 0.0), 1.0));",
+        "}",
+    ]
+    vertex = join(chunk("whole_target.vert"), "whole_target.vert")
+    return vertex, join("\n".join(lines), "sky")
+
+
 def _fragment(layout: ShadingLayout, lights: LightLayout, layered: bool) -> str:
     parameters = [*layout.parameters, *([layout.opacity] if layout.opacity else [])]
     chunks = ["lib/fragment.glsl", f"surfaces/{layout.technique}.glsl"]
@@ -85,6 +102,7 @@ def _fragment(layout: ShadingLayout, lights: LightLayout, layered: bool) -> str:
     chunks += ["lib/opacity.glsl"] if layout.opacity else []
     chunks += ["lib/layers.glsl"] if layered else []
     if is_lit(layout.technique):
+        chunks.append(f"skies/{lights.sky}.glsl")
         chunks += ["lib/shadows.glsl" if lights.shadows else "lib/unobstructed.glsl"]
     lines = _head(layout, chunks)
     for call, number in calls:

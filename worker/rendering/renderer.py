@@ -117,7 +117,7 @@ def render(
     built = engine.builder.build(
         scene, width / height, textures, models, tangents="tangent" in output.layers
     )
-    placed = FlatScene(built.drawables, built.view, built.background)
+    placed = FlatScene(built.drawables, built.view, built.background, built.sky)
     lights = lighting(built.lights, built.view.world_from_camera[:3, 3], placed.corners)
     timings = {"build_ms": _milliseconds(time.perf_counter() - start)}
     counts = {"triangles": built.triangles, "texels": built.texels}

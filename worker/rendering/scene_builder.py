@@ -31,6 +31,7 @@ from worker.rendering.model_changes import seen_parts
 from worker.rendering.pyrender_scene import Background, Drawable, View
 from worker.rendering.relief_shading import TangentsWanted, tangents_wanted
 from worker.rendering.shading import Shading, shade
+from worker.rendering.sky import Skies, Sky
 from worker.rendering.staging import PlacedModel, lights_of, view_of
 from worker.rendering.textures import Texture
 from worker.rendering.vertex_arrays import VertexArray
@@ -64,6 +65,7 @@ class BuiltScene:
     view: View
     lights: tuple[Light, ...]
     background: Background | None
+    sky: Sky | None
     triangles: int
     texels: int
     warnings: tuple[str, ...]
@@ -86,6 +88,7 @@ class SceneBuilder:
         """Begin with nothing in OpenGL."""
         self._textures = ByteCache[Texture](TEXTURE_BYTES_MAX, Texture.delete)
         self._meshes = ByteCache[VertexArray](MESH_BYTES_MAX, VertexArray.delete)
+        self._skies = Skies()
 
     def build(
         self,
@@ -138,8 +141,16 @@ class SceneBuilder:
             for item, mesh in zip(placed, kept, strict=True)
         )
         view = view_of(scene.camera, models, vertices, aspect)
-        lights, left_out = lights_of(scene.lights, models, view.world_from_camera)
+        lights, left_out = lights_of(
+            scene.lights,
+            models,
+            view.world_from_camera,
+            surrounded=scene.environment is not None,
+        )
+        sky = None if scene.environment is None else self._skies.sky(scene.environment, maker)
         background = self._background(scene.background, maker)
+        if background is None and scene.environment is not None and scene.environment.visible:
+            background = sky
         shadings = [drawable.shading for drawable in drawables]
         if isinstance(background, Shading):
             shadings.append(background)
@@ -152,6 +163,7 @@ class SceneBuilder:
             drawables=tuple(drawables),
             view=view,
             background=background,
+            sky=sky,
             lights=tuple(lights),
             triangles=sum(len(mesh.elements) for mesh in kept),
             texels=sum(texture.width * texture.height for texture in pictures.values()),
@@ -164,6 +176,7 @@ class SceneBuilder:
         """Free what exceeds the bounds; call it when nothing is being drawn."""
         self._textures.trim()
         self._meshes.trim()
+        self._skies.trim()
 
     def _kept(self, item: _Placed, tangents: bool) -> VertexArray:
         wanted = tangents_wanted(item.surface)

@@ -9,6 +9,9 @@ from worker.rendering.calls import Call
 from worker.rendering.samplers import Sampling
 from worker.rendering.textures import TextureFormat
 
+SkyKind = Literal["none", "latlong", "cube"]
+"""The chunks of shaders/skies."""
+
 
 @dataclass(frozen=True, slots=True)
 class Parameter:
@@ -76,9 +79,15 @@ class ReliefLayout:
 
 @dataclass(frozen=True, slots=True)
 class LightLayout:
-    """What the programs of lit surfaces know of a scene's lights: whether any casts shadows."""
+    """What the programs of lit surfaces know of a scene's lights.
+
+    Attributes:
+        shadows: Whether any casts shadows.
+        sky: Which chunk reads the light from all around.
+    """
 
     shadows: bool = False
+    sky: SkyKind = "none"
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from worker.errors import RenderError
+from worker.images.mending import mended
 from worker.synthesis._harmonics import NAMES, project
 from worker.synthesis._sphere import Sphere
 
@@ -36,16 +37,10 @@ def taken(image: Image, layout: LayoutSpec, broken: str) -> tuple[Sphere, dict[s
     Raises:
         RenderError: There is such a texel, and it is refused (`environment_texels`).
     """
-    pixels = image.pixels[..., : 3 if image.channels >= 3 else 1]
-    fit = np.isfinite(pixels)
-    count = int(fit.size - np.count_nonzero(fit))
+    pixels, count = mended(image.pixels[..., : 3 if image.channels >= 3 else 1])
     if count and broken == "refuse":
         message = f"{count} numbers of the environment are infinite or no numbers"
         raise RenderError(message, code="environment_texels")
-    if count:
-        brightest = pixels.max(initial=0.0, where=fit)
-        pixels = np.nan_to_num(pixels, nan=0.0, posinf=brightest, neginf=0.0)
-    pixels = np.maximum(pixels, np.float32(0))
     light = np.ascontiguousarray(np.broadcast_to(pixels, (*pixels.shape[:2], 3)))
     return Sphere(light, layout), {"mended_numbers": count} if count else {}
 
