@@ -80,6 +80,15 @@ class LayoutSpec(TechniqueSpec):
     joins: ClassVar[tuple[Wrap, Wrap]] = ("clamp", "clamp")
     """What lies beyond the picture along u and v."""
 
+    @property
+    def proportion(self) -> tuple[int, int]:
+        """Width to height of the picture."""
+        return (1, 1)
+
+    def mistake(self) -> tuple[str, str] | None:
+        """Return which field is impossible and why, if JSON Schema could not say it."""
+        return None
+
 
 class SurfaceSpec(TechniqueSpec):
     """Says how a surface sends light to the eye, and how much of what is behind it is seen."""
