@@ -17,11 +17,12 @@ from api_schemas.bodies import (
     body,
 )
 from api_schemas.camera import Camera, FramedCamera, ModelCamera, PosedCamera
+from api_schemas.cookies import Cookie
 from api_schemas.cost import Cost
 from api_schemas.coverage import coverage, stand_in
 from api_schemas.families import SurfaceSpec, TextureSpec
 from api_schemas.geometry import IDENTITY, Affine, Vector3, affine
-from api_schemas.light_cost import seconds_of_shadows, shadow_maps
+from api_schemas.light_cost import cookies_of, seconds_of_shadows, shadow_maps
 from api_schemas.lights import LIGHTS_MAX
 from api_schemas.output_cost import samples_of, sampling, tiles_of, writing
 from api_schemas.relief import AnyMap
@@ -98,9 +99,13 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
     )
     lighting = SECONDS_PER_SHADED_SAMPLE + shining * SECONDS_PER_LIGHT_SAMPLE
     lighting += seconds_of_shadows(scene.lights or [])
+    cookies = cookies_of(scene.lights or [])
+    # Both sides of a branch are run: every light asks every picture.
+    pictures = {cookie.unit: SECONDS_PER_MAP_SAMPLE[cookie.filter] for cookie in cookies}
+    lighting += shining * sum(pictures.values())
     textures = _WornTextures(facts)
     background = _maps(scene.background)
-    cost += textures.cost(background)
+    cost += textures.cost(background) + textures.cost(cookies)
     cost += Cost(samples * _seconds_per_sample(background))
     made = set()
     once = 0.0
@@ -167,7 +172,7 @@ class _WornTextures:
         self.making = 0.0
         """Bytes that the largest of them takes while it is made."""
 
-    def cost(self, maps: Sequence[MAPS]) -> Cost:
+    def cost(self, maps: Sequence[MAPS | Cookie]) -> Cost:
         """Return the cost of what these maps need and no earlier ones did."""
         cost = Cost()
         for item in maps:

@@ -1,9 +1,10 @@
-"""What shadows cost: maps that are drawn once for each picture, and readings for each sample."""
+"""What shadows and cookies cost: maps drawn once for each picture, readings for each sample."""
 
 from collections.abc import Iterator, Sequence
 
+from api_schemas.cookies import Cookie
 from api_schemas.cost import Cost
-from api_schemas.lights import AmbientLight, Light, PointLight, SpotLight
+from api_schemas.lights import AmbientLight, DirectionalLight, Light, PointLight, SpotLight
 from api_schemas.shadows import Shadow
 
 WIDEST_CONE = 1.2
@@ -36,6 +37,15 @@ def seconds_of_shadows(lights: Sequence[Light]) -> float:
     """Return the seconds that asking all shadow maps takes for one sample."""
     taps = sum((2 * shadow.radius + 2) ** 2 for _, shadow in _shadows(lights))
     return taps * _SECONDS_PER_TAP
+
+
+def cookies_of(lights: Sequence[Light]) -> list[Cookie]:
+    """Return the pictures before lights."""
+    return [
+        light.cookie
+        for light in lights
+        if isinstance(light, DirectionalLight | SpotLight) and light.cookie is not None
+    ]
 
 
 def _shadows(lights: Sequence[Light]) -> Iterator[tuple[int, Shadow]]:

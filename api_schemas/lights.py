@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from api_schemas.base import Color, NonNegative, Schema, Vector
+from api_schemas.cookies import Gobo, Slide
 from api_schemas.shadows import Shadow
 
 LIGHTS_MAX = 32
@@ -39,6 +40,7 @@ class DirectionalLight(_CastingLight):
     irradiance: NonNegative = Field(
         default=1.0, description="Brightness on a surface that faces the light."
     )
+    cookie: Gobo | None = Field(default=None, description="A picture that it goes through.")
 
 
 class PointLight(_CastingLight):
@@ -65,6 +67,7 @@ class SpotLight(_CastingLight):
         default=0.6,
         description="Half angle in radians where it has faded to nothing; not below inner_angle.",
     )
+    cookie: Slide | None = Field(default=None, description="A picture that it throws.")
 
 
 Light = Annotated[

@@ -65,3 +65,13 @@ def test_shadows_beyond_every_measure_are_over_the_budget():
     crowd = many([LAMP | {"shadow": {"resolution": 4096}}] * 32)
 
     assert crowd.bytes > limits.cost_limit_bytes
+
+
+def test_every_light_asks_every_picture():
+    def seconds(count):
+        picture = {"technique": "constant", "value": [1, 1, 1]}
+        return many([SUN | {"cookie": {"texture": picture}}] * count).seconds
+
+    plain = [many([SUN] * count).seconds for count in (4, 8)]
+    # One picture and one program more; then 1e6 samples of 20 ns for each light.
+    assert seconds(8) - plain[1] - (seconds(4) - plain[0]) == pytest.approx(4 * 2e-8 * 2**20)

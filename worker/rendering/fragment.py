@@ -4,6 +4,7 @@ import functools
 from collections.abc import Callable, Iterable, Sequence
 
 from worker.rendering.chunks import Source, chunk, join
+from worker.rendering.light_code import light_chunks, light_lines
 from worker.rendering.relief_fragment import aside, relief_chunks, tilts
 from worker.rendering.shading_layout import (
     LightLayout,
@@ -103,8 +104,10 @@ def _fragment(layout: ShadingLayout, lights: LightLayout, layered: bool) -> str:
     chunks += ["lib/layers.glsl"] if layered else []
     if is_lit(layout.technique):
         chunks.append(f"skies/{lights.sky}.glsl")
-        chunks += ["lib/shadows.glsl" if lights.shadows else "lib/unobstructed.glsl"]
+        chunks += light_chunks(lights)
     lines = _head(layout, chunks)
+    if is_lit(layout.technique):
+        lines += light_lines(lights)
     for call, number in calls:
         lines += call.declarations(number)
     for parameter in parameters:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from api_schemas.base import FLOAT32_MAX
 from api_schemas.lights import AmbientLight, DirectionalLight, Light, PointLight, SpotLight
 from worker.errors import RenderError
+from worker.rendering.cookies import Cookies
 from worker.rendering.light_views import Lamp, LightView, light_views
 from worker.rendering.shading_layout import LightLayout
 
@@ -19,20 +20,28 @@ _SHARPEST_EDGE = 1e-6  # of a cone, in cosines; equal angles would divide by zer
 
 @dataclass(frozen=True, slots=True)
 class Lighting:
-    """What shines on a scene: uniforms of lit programs, and the maps that lights draw first."""
+    """What shines on a scene.
+
+    Attributes:
+        uniforms: Of lit programs.
+        views: The shadow maps that are drawn first.
+        cookies: Pictures before lights.
+    """
 
     uniforms: Mapping[str, Any]
     views: tuple[LightView, ...]
+    cookies: Cookies
 
     @property
     def layout(self) -> LightLayout:
         """What lit programs must know to be compiled."""
-        return LightLayout(shadows=bool(self.views))
+        return LightLayout(shadows=bool(self.views), cookies=self.cookies.layouts)
 
 
 def lighting(
     lights: Sequence[Light],
     eye: NDArray[np.float64],
+    cookies: Cookies,
     corners: Callable[[], NDArray[np.float64]],
 ) -> Lighting:
     """Give the lights seen from the eye, in the request's order; ambient lights add up.
@@ -40,6 +49,7 @@ def lighting(
     Args:
         lights: The request's, or a model's, in the world.
         eye: Where it is in the world.
+        cookies: The pictures before these lights.
         corners: Gives (n, 3), those of boxes that hold all that is drawn, in the world; asked for
             only where there are shadows.
 
@@ -66,7 +76,8 @@ def lighting(
     views = light_views(lamps, corners()) if shaded else []
     if views:
         uniforms |= _shadow_uniforms(views, len(rows), eye)
-    return Lighting(uniforms, tuple(views))
+    uniforms |= cookies.uniforms(eye)
+    return Lighting(uniforms, tuple(views), cookies)
 
 
 def _shadow_uniforms(

@@ -26,11 +26,10 @@ from worker.rendering.programs import Program, ProgramCache
 from worker.rendering.pyrender_scene import FlatScene, PlacedNode, SurfacePrimitive
 from worker.rendering.shading import Shading
 from worker.rendering.shading_layout import LightLayout
-from worker.rendering.shadow_maps import UNIT as SHADOW_UNIT
 from worker.rendering.shadow_maps import ShadowMaps
 from worker.rendering.sky import Sky
 from worker.rendering.targets import Target
-from worker.rendering.texture_units import TextureUnits
+from worker.rendering.texture_units import COOKIE_UNIT, SHADOW_UNIT, TextureUnits
 
 
 class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
@@ -97,6 +96,8 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         self._units.forget()
         if lights.views:
             self._shadows.bind()
+        for unit, cookie in enumerate(lights.cookies.pictures, COOKIE_UNIT):
+            self._units.put(unit, cookie)
         self.viewport_width, self.viewport_height = size
         GL.glLineWidth(supersampling)
         GL.glPointSize(supersampling)
@@ -175,6 +176,8 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
                 program.set("shadow_maps", SHADOW_UNIT)
             if scene.sky is not None:
                 self._units.bind_sky(program, scene.sky)
+            for unit, name in enumerate(self._frame.lights.layout.samplers, COOKIE_UNIT):
+                program.set(name, unit)
 
     def _bind_and_draw_primitive(
         self, primitive: SurfacePrimitive, pose: Matrix, program: Program, flags: int

@@ -118,7 +118,8 @@ def render(
         scene, width / height, textures, models, tangents="tangent" in output.layers
     )
     placed = FlatScene(built.drawables, built.view, built.background, built.sky)
-    lights = lighting(built.lights, built.view.world_from_camera[:3, 3], placed.corners)
+    eye = built.view.world_from_camera[:3, 3]
+    lights = lighting(built.lights, eye, built.cookies, placed.corners)
     timings = {"build_ms": _milliseconds(time.perf_counter() - start)}
     counts = {"triangles": built.triangles, "texels": built.texels}
     drawn = _bands(engine, placed, lights, output, timings, report)

@@ -26,7 +26,9 @@ from worker.images.pyramids import Cut, keep_coverage, mip_chain
 from worker.images.relief import Preparation, prepared
 from worker.models.model import Model, Part
 from worker.rendering.cache import ByteCache
+from worker.rendering.cookies import Cookies, cookies_of
 from worker.rendering.displacing import with_relief
+from worker.rendering.lookups import TextureSource
 from worker.rendering.model_changes import seen_parts
 from worker.rendering.pyrender_scene import Background, Drawable, View
 from worker.rendering.relief_shading import TangentsWanted, tangents_wanted
@@ -64,6 +66,7 @@ class BuiltScene:
     drawables: tuple[Drawable, ...]
     view: View
     lights: tuple[Light, ...]
+    cookies: Cookies
     background: Background | None
     sky: Sky | None
     triangles: int
@@ -148,16 +151,17 @@ class SceneBuilder:
             surrounded=scene.environment is not None,
         )
         sky = None if scene.environment is None else self._skies.sky(scene.environment, maker)
+        cookies = cookies_of(lights, self._source(maker))
         background = self._background(scene.background, maker)
         if background is None and scene.environment is not None and scene.environment.visible:
             background = sky
         shadings = [drawable.shading for drawable in drawables]
         if isinstance(background, Shading):
             shadings.append(background)
-        pictures = {
+        worn_pictures = [picture for shading in shadings for picture in shading.pictures]
+        textures = {
             picture.texture.number: picture.texture
-            for shading in shadings
-            for picture in shading.pictures
+            for picture in (*worn_pictures, *cookies.pictures)
         }
         return BuiltScene(
             drawables=tuple(drawables),
@@ -165,8 +169,9 @@ class SceneBuilder:
             background=background,
             sky=sky,
             lights=tuple(lights),
+            cookies=cookies,
             triangles=sum(len(mesh.elements) for mesh in kept),
-            texels=sum(texture.width * texture.height for texture in pictures.values()),
+            texels=sum(texture.width * texture.height for texture in textures.values()),
             warnings=tuple(
                 dict.fromkeys(itertools.chain(*(item.model.warnings for item in models), left_out))
             ),
@@ -193,6 +198,9 @@ class SceneBuilder:
         return self._meshes.get((item.key, wanted), make)
 
     def _shading(self, surface: SurfaceSpec, maker: TextureMaker) -> Shading:
+        return shade(surface, self._source(maker))
+
+    def _source(self, maker: TextureMaker) -> TextureSource:
         def texture_of(
             spec: TextureSpec,
             meaning: Meaning,
@@ -207,7 +215,7 @@ class SceneBuilder:
                 key, lambda: _upload(prepared(maker(spec, meaning), preparation), levels, cut)
             )
 
-        return shade(surface, texture_of)
+        return texture_of
 
     def _background(
         self, spec: list[float] | ColorMap | None, maker: TextureMaker

@@ -18,10 +18,7 @@ from worker.rendering.gl_context import GL, check, floats
 from worker.rendering.light_views import LightView
 from worker.rendering.programs import Program, ProgramCache
 from worker.rendering.pyrender_scene import FlatScene, PlacedNode, SurfacePrimitive
-from worker.rendering.texture_units import TextureUnits
-
-UNIT = 30
-"""Maps take the first 24 units, a surface's tables the next ones, the faces of layers the last."""
+from worker.rendering.texture_units import SHADOW_UNIT, TextureUnits
 
 _NOTHING = f"{VERSION}\nvoid main() {{}}\n"
 
@@ -75,9 +72,9 @@ class ShadowMaps(pyrender.Renderer):  # type: ignore[misc]
 
     def bind(self) -> None:
         """Put the array where programs with shadows look for it."""
-        GL.glActiveTexture(GL.GL_TEXTURE0 + UNIT)
+        GL.glActiveTexture(GL.GL_TEXTURE0 + SHADOW_UNIT)
         GL.glBindTexture(GL.GL_TEXTURE_2D_ARRAY, self._texture)
-        GL.glBindSampler(UNIT, 0)
+        GL.glBindSampler(SHADOW_UNIT, 0)
 
     # Hooks of pyrender.Renderer, in the order in which its traversal calls them.
 

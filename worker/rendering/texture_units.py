@@ -7,6 +7,11 @@ from worker.rendering.samplers import SamplerCache
 from worker.rendering.shading import Shading
 from worker.rendering.sky import Sky
 
+COOKIE_UNIT = 26
+"""The first of four. Maps take the first 24 units, a surface's tables the next ones, the faces of
+layers the last."""
+SHADOW_UNIT = 30
+
 
 class TextureUnits:
     """Binds pictures, each only where another one was before."""

@@ -14,7 +14,7 @@ from worker.images import image_io
 
 pytestmark = pytest.mark.gl
 
-EXAMPLES = ["shadows"]
+EXAMPLES = ["cookies", "shadows"]
 
 
 @pytest.mark.golden

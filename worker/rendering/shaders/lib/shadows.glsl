@@ -70,7 +70,3 @@ float unshaded(int light, vec3 position, vec3 normal) {
     float lit = 1.0 - dark / float((2 * radius + 1) * (2 * radius + 1));
     return lit < 1e-5 ? 0.0 : lit;  // what all texels hide gets nothing, rounding or not
 }
-
-vec3 let_through(int light, SurfacePoint point) {
-    return vec3(unshaded(light, point.position, point.smooth_normal));
-}
