@@ -26,7 +26,7 @@ class Environment(Schema):
     )
     rotation_y: Angle = Field(
         default=0.0,
-        description="Turns it round the vertical, counter-clockwise as seen from above, in radians.",
+        description="Turns it round the vertical, counter-clockwise from above, in radians.",
     )
     intensity: NonNegative = Field(default=1.0, description="Multiplies its light.")
     visible: bool = Field(

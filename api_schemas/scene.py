@@ -64,7 +64,7 @@ class Scene(Schema):
     )
     environment: Environment | None = Field(
         default=None,
-        description="The light from all around: it shines on what is there, is seen in mirrors, and "
-        "behind everything.",
+        description="The light from all around: it shines on what is there, and is seen in mirrors "
+        "and behind everything.",
     )
     nodes: Annotated[list[Node], Field(max_length=NODES_MAX)] = Field(description="What is there.")

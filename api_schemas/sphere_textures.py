@@ -14,15 +14,11 @@ if TYPE_CHECKING:
     from api_schemas.language import Layout, Texture
 
 
-class SphereTextureSpec(TextureSpec):
-    """Takes a picture of the light from all directions, and makes another one."""
+class SphereSpec(TextureSpec):
+    """Makes a picture of all directions out of another one."""
 
     cube_side: ClassVar[int] = 512
 
-    environment: Annotated["Texture", OWN_SIZE, COLOUR] = Field(
-        description="The light: an upload with its own pixels, or any technique. Alpha is ignored; "
-        "what is below zero is dark."
-    )
     layout: "Layout" = Field(
         default={"technique": "latlong"},
         validate_default=True,
@@ -49,3 +45,12 @@ class SphereTextureSpec(TextureSpec):
     def cost(self, pixels: int) -> Cost:
         """Every direction is looked up a few times, and the source is read."""
         return Cost(seconds=1.0 + pixels * 2e-6, bytes=pixels * 64.0 + 1e8)
+
+
+class SphereTextureSpec(SphereSpec):
+    """Makes it of the light from all directions, and of nothing else."""
+
+    environment: Annotated["Texture", OWN_SIZE, COLOUR] = Field(
+        description="The light: an upload with its own pixels, or any technique. Alpha is ignored; "
+        "what is below zero is dark."
+    )

@@ -8,7 +8,7 @@ from api_schemas.base import Number
 from api_schemas.cost import Cost
 from api_schemas.maps import COLOUR
 from api_schemas.own_size import OWN_SIZE
-from api_schemas.sphere_textures import SphereTextureSpec
+from api_schemas.sphere_textures import SphereSpec
 
 if TYPE_CHECKING:
     from api_schemas.language import Texture
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 Coefficient = Annotated[list[Number], Field(min_length=3, max_length=3)]
 
 
-class IrradianceSpec(SphereTextureSpec):
+class IrradianceSpec(SphereSpec):
     """Irradiance over pi at every direction of a normal: what a white matt surface shows there.
 
     The job's report tells the nine coefficients of the light and how far they miss the sum over

@@ -35,7 +35,9 @@ ROUGHNESS = [0.2, 0.4, 0.6, 0.8, 1.0]
 """Of the levels of a rough cube: lib/environment.glsl counts on steps of equal height."""
 
 _COLUMN = CubeSpec(technique="cube", arrangement="column", orientation="gl")
-_UNITS = {"sky_picture": 27, "sky_rough": 28, "sky_matt": 29}  # maps and tables lie below
+_UNITS = {"sky_picture": 23, "sky_rough": 24, "sky_matt": 25}
+"""Below those of lights; a scene with an environment has room for that many maps less."""
+
 _SAMPLING = Sampling(wrap=("repeat", "clamp"), smooth=True, levels=True)
 Maker = Callable[[TextureSpec, Meaning], Image]
 
@@ -85,11 +87,20 @@ class Skies:
         Raises:
             WorkerError: A texture cannot be made.
         """
-        of = {"environment": spec.texture, "layout": spec.layout, "to": _COLUMN}
         rough = PrefilteredEnvironmentSpec(
-            technique="prefiltered_environment", roughness=ROUGHNESS, **of
+            technique="prefiltered_environment",
+            environment=spec.texture,
+            layout=spec.layout,
+            to=_COLUMN,
+            roughness=ROUGHNESS,
         )
-        matt = IrradianceSpec(technique="irradiance", method=spec.matt, **of)
+        matt = IrradianceSpec(
+            technique="irradiance",
+            environment=spec.texture,
+            layout=spec.layout,
+            to=_COLUMN,
+            method=spec.matt,
+        )
         kind: SkyKind = "latlong" if isinstance(spec.layout, LatlongSpec) else "cube"
         picture: Texture | CubeTexture
         if isinstance(spec.layout, LatlongSpec):
@@ -97,7 +108,9 @@ class Skies:
                 spec.texture.model_dump_json(), lambda: _flat(maker(spec.texture, "colour"))
             )
         else:
-            whole = ConvertLayoutSpec(technique="convert_layout", **of)
+            whole = ConvertLayoutSpec(
+                technique="convert_layout", environment=spec.texture, layout=spec.layout, to=_COLUMN
+            )
             picture = self._cube(whole, maker, sharp_levels)
         uniforms: dict[str, Any] = {
             "sky_from_world": turned(spec.rotation_y),

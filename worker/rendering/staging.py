@@ -75,7 +75,8 @@ def lights_of(
 ) -> tuple[Sequence[Light], Sequence[str]]:
     """Return what shines, in world axes, and what there is to warn of.
 
-    `surrounded` scenes have an environment that shines, and need no studio. One model brings no more lights than a shader has room for; many together may.
+    Scenes `surrounded` by an environment need no studio. One model brings no more lights than a
+    shader has room for; many together may.
     """
     if lights is not None:
         return lights, ()

@@ -74,15 +74,16 @@ def cube_of(source: Sphere, side: int) -> NDArray[np.float32]:
     """
     rows, columns = source.pixels.shape[:2]
     fine = _fineness(rows * columns, (6 * side, side))
-    light = Reader(source).read(face_directions(side * fine).reshape(-1, 3))
+    read = Reader(source).read(face_directions(side * fine).reshape(-1, 3))
     weights = face_solid_angles(side * fine)[..., np.newaxis]
     shape = (6, side, fine, side, fine, -1)
-    summed = (light.reshape(6, side * fine, side * fine, 3) * weights).reshape(shape)
+    summed = (read.reshape(6, side * fine, side * fine, 3) * weights).reshape(shape)
     total = weights.reshape(1, *shape[1:]).sum(axis=(2, 4))
     faces = summed.sum(axis=(2, 4)) / total
     if _is_whole(source):
         faces *= _gain(source.power(), np.einsum("fstc,st->c", faces, face_solid_angles(side)))
-    return faces.astype(np.float32)
+    light: NDArray[np.float32] = faces.astype(np.float32)
+    return light
 
 
 def _is_whole(sphere: Sphere) -> bool:

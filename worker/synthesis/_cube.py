@@ -49,7 +49,8 @@ def face_directions(side: int, rim: int = 0) -> Floats:
     s, t = np.meshgrid(places, places)
     ones = np.ones_like(s)
     directions: Floats = np.stack([s, t, ones], axis=-1) @ _AXES[:, np.newaxis]
-    return directions / np.linalg.norm(directions, axis=-1, keepdims=True)
+    directions /= np.linalg.norm(directions, axis=-1, keepdims=True)
+    return directions
 
 
 def face_solid_angles(side: int) -> Floats:
@@ -67,7 +68,8 @@ def halved(faces: Faces) -> Faces:
     weights = face_solid_angles(side)[np.newaxis, :, :, np.newaxis]
     light = (faces * weights).reshape(6, side // 2, 2, side // 2, 2, -1).sum(axis=(2, 4))
     total = weights.reshape(1, side // 2, 2, side // 2, 2, 1).sum(axis=(2, 4))
-    return (light / total).astype(np.float32)
+    halves: Faces = (light / total).astype(np.float32)
+    return halves
 
 
 def pyramid(faces: Faces) -> Pyramid:

@@ -46,6 +46,7 @@ def synthesize(
     errors: list[dict[str, Any]] = []
     top, panel = 0, (width, height if len(lobes) == 1 else height // 2)
     for index, lobe in enumerate(lobes):
+        error: dict[str, Any] = {}
         columns, rows = (max(1, side >> index) for side in panel)
         if top + rows > height:
             break
@@ -54,7 +55,7 @@ def synthesize(
             report((done + share) / len(lobes), step)
 
         if cubes is None or lobe.width <= SMOOTHEST:
-            shown, error = _mirrored(spec, source, (columns, rows), told), {}
+            shown = _mirrored(spec, source, (columns, rows), told)
         else:
             shown, error = _panel(spec, Gatherer(cubes, lobe), (columns, rows), told)
         pixels[top : top + rows, :columns] = shown
