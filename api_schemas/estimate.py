@@ -29,7 +29,7 @@ from api_schemas.relief import AnyMap
 from api_schemas.requests import RenderRequest, Request
 from api_schemas.scene import Node
 from api_schemas.textures.image import ImageSpec
-from api_schemas.walk import parts
+from api_schemas.walk import outermost, parts
 
 SECONDS_PER_SHADED_SAMPLE = 6e-8
 SECONDS_PER_LIGHT_SAMPLE = 1e-8
@@ -62,11 +62,13 @@ def estimate(request: Request, facts: Mapping[str, AssetFacts]) -> Cost:
 
 def _textures(value: object, facts: Mapping[str, AssetFacts], pixels: int) -> Cost:
     cost = Cost()
-    for _, part in parts(value):
-        if isinstance(part, ImageSpec) and (texels := _texels(part, facts)):
+    for texture in outermost(value, TextureSpec):
+        if isinstance(texture, ImageSpec) and (texels := _texels(texture, facts)):
             cost += Cost(texels * SECONDS_PER_TEXEL, texels * BYTES_PER_TEXEL)
-        if isinstance(part, TextureSpec):
-            cost += part.cost(pixels)
+        cost += texture.cost(pixels)
+        within = math.prod(texture.inner_size((pixels, 1)))
+        for name in type(texture).model_fields:
+            cost += _textures(getattr(texture, name), facts, within)
     return cost
 
 

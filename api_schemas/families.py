@@ -5,6 +5,8 @@ A technique's name is written once: its module's name, its `technique` literal, 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, ClassVar, Literal, Self
 
 from pydantic import Field
@@ -14,12 +16,21 @@ from api_schemas.cost import Cost
 
 if TYPE_CHECKING:
     from api_schemas.language import MappableNonNegative
-    from api_schemas.maps import NormalMap
+    from api_schemas.maps import LightMap, NormalMap
     from api_schemas.relief import BumpMap, HeightMap, ParallaxMap, TangentFrames
 
 Meaning = Literal["colour", "data"]
 Wrap = Literal["repeat", "mirror", "clamp", "border"]
 AlphaMode = Literal["opaque", "mask", "blend"]
+
+
+@dataclass(frozen=True, slots=True)
+class Refusal:
+    """Why a valid spec cannot be done: a problem's code, the field at fault, and the reason."""
+
+    code: str
+    field: str
+    message: str
 
 
 class TechniqueSpec(Schema):
@@ -57,6 +68,14 @@ class TextureSpec(TechniqueSpec):
     def surface_size(self) -> tuple[int, int]:
         """Width and height of its picture, where a surface wears it."""
         return (self.surface_side, self.surface_side)
+
+    def inner_size(self, size: tuple[int, int]) -> tuple[int, int]:
+        """Return the size that textures within are made at, where this one is made at `size`."""
+        return size
+
+    def refusals(self) -> Iterator[Refusal]:
+        """Tell what its numbers make impossible, beyond what its schema refuses."""
+        yield from ()
 
     def cost(self, pixels: int) -> Cost:
         """Estimate this technique at a number of pixels, without the textures nested in it."""
@@ -130,6 +149,11 @@ class SurfaceSpec(TechniqueSpec):
         description="Which directions normal and bump maps tilt along: those that bakers use, the "
         "mean of the triangles round each corner, or the parallels and meridians of a globe round "
         "the y axis. They follow the coordinates of the normal map, without one the bump map's.",
+    )
+
+    light_map: LightMap | None = Field(
+        default=None,
+        description="Baked light that arrives besides the lamps', reflected as ambient light is.",
     )
 
     def filled(self) -> Self:

@@ -39,8 +39,9 @@ def obstacles(request: Request) -> list[Obstacle]:
     found = list(_limits(request))
     if found:
         return found
+    found += _refusals(request)
     if isinstance(request, TextureRequest):
-        return [*_layer_names(request), *_layers(request.output)]
+        return [*found, *_layer_names(request), *_layers(request.output)]
     found += _camera(request.scene.camera)
     found += _cookies(request.scene.lights or [])
     for index, light in enumerate(request.scene.lights or []):
@@ -92,6 +93,14 @@ def _limits(request: Request) -> Iterator[Obstacle]:
     ):
         if count > limit:
             yield Obstacle("too_many_nodes", "", f"{count} {things}; at most {limit}")
+
+
+def _refusals(request: Request) -> Iterator[Obstacle]:
+    for pointer, part in parts(request):
+        if isinstance(part, TextureSpec):
+            for refusal in part.refusals():
+                place = f"{pointer}/{refusal.field}" if refusal.field else pointer
+                yield Obstacle(refusal.code, place, refusal.message)
 
 
 def _layer_names(request: TextureRequest) -> Iterator[Obstacle]:

@@ -17,14 +17,14 @@ from pyrender.constants import RenderFlags
 
 from worker.geometry.transforms import Matrix, rigid_inverse
 from worker.rendering.chunks import Source
-from worker.rendering.fragment import background_sources, is_lit, sky_sources, surface_sources
+from worker.rendering.fragment import background_sources, sky_sources, surface_sources
 from worker.rendering.frame import Frame, TraversedProgram
 from worker.rendering.gl_context import GL, GLContext, check, floats
 from worker.rendering.layer_uniforms import LayerUniforms
 from worker.rendering.lighting import Lighting
 from worker.rendering.programs import Program, ProgramCache
 from worker.rendering.pyrender_scene import FlatScene, PlacedNode, SurfacePrimitive
-from worker.rendering.shading import Shading
+from worker.rendering.shading import Shading, is_lit
 from worker.rendering.shading_layout import LightLayout
 from worker.rendering.shadow_maps import ShadowMaps
 from worker.rendering.sky import Sky
@@ -188,7 +188,7 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         scene.place(program, primitive)
         self._units.bind(program, primitive.material.shading)
         if self._frame.target.layered:
-            program.set("object_id", number + 1)
+            program.set("object_id", primitive.thing)
             program.set("material_id", primitive.material.number)
             self._layers.set(program, scene.view.world_from_camera, primitive.mesh)
         if primitive.material.shading.layout.alpha_mode == "blend" and not self._frame.blending:

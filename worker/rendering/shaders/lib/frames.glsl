@@ -1,11 +1,12 @@
-#include "lib/object_frame.glsl"
 #include "lib/reach.glsl"
 #include "lib/surface_point.glsl"
 
 // The frames that coordinates may be in: 0 the world, 1 the mesh's own, 2 the eye's, with x to the
 // right, y up and z backwards.
-uniform vec3 eye_position;  // in the world
+uniform vec3 eye_position;       // in the world
 uniform mat3 camera_from_world;  // a turn
+uniform mat4 eye_from_object;    // axes of the world, origin at the eye
+uniform mat3 normal_from_object;
 
 Reach turned(mat3 to_from, Reach reach) {
     return Reach(to_from * reach.place, to_from * reach.across_x, to_from * reach.across_y);

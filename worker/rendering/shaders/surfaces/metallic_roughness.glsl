@@ -86,10 +86,11 @@ vec4 shade(SurfacePoint point, Surface surface) {
     float coat = clamp(surface.clearcoat, 0.0, 1.0)
         * (COAT_F0 + (1.0 - COAT_F0) * schlick(coat_seen));
 
-    vec3 on_matt = ambient_radiance + sky_on_matt(point.normal);
-    vec3 in_mirror = ambient_radiance + sky_in_mirror(mirrored, reach, surface.roughness);
+    vec3 even = light_all_around();
+    vec3 on_matt = even + sky_on_matt(point.normal);
+    vec3 in_mirror = even + sky_in_mirror(mirrored, reach, surface.roughness);
     vec3 coat_mirrored = reflect(-point.view, point.smooth_normal);
-    vec3 in_coat = ambient_radiance + sky_in_mirror(coat_mirrored, reach, surface.clearcoat_roughness);
+    vec3 in_coat = even + sky_in_mirror(coat_mirrored, reach, surface.clearcoat_roughness);
     vec3 below_all = matt * (1.0 - largest(reflected_of_all(brighter, table)));
     vec3 radiance = on_matt * below_all + in_mirror * reflected_of_all(both, table);
     radiance = surface.emission + surface.occlusion * radiance;

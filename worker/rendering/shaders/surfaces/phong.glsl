@@ -38,7 +38,7 @@ vec4 shade(SurfacePoint point, Surface surface) {
         gloss *= (exponent + 2.0) / (2.0 * PI);
     }
     precise vec3 ambient = surface.ambient_weight * surface.ambient_color * point.color.rgb;
-    vec3 on_matt = ambient_radiance + sky_on_matt(point.normal);
+    vec3 on_matt = light_all_around() + sky_on_matt(point.normal);
     precise vec3 radiance = surface.emission + ambient * on_matt;
     radiance += surface.specular_weight * surface.specular_color
         * sky_in_mirror(seen_mirrored, reach, roughness_of(exponent));
