@@ -62,7 +62,7 @@ def converted(
     whole = _is_whole(source) and _is_whole(made)
     before, gain = source.power(), np.ones(3)
     if whole:
-        gain = _gain(before, made.power())
+        gain = _gain(source.mean(), made.mean())
         made = Sphere((pixels * gain).astype(np.float32), layout)
     return Conversion(made, before, made.power(), gain, whole)
 
@@ -81,7 +81,8 @@ def cube_of(source: Sphere, side: int) -> NDArray[np.float32]:
     total = weights.reshape(1, *shape[1:]).sum(axis=(2, 4))
     faces = summed.sum(axis=(2, 4)) / total
     if _is_whole(source):
-        faces *= _gain(source.power(), np.einsum("fstc,st->c", faces, face_solid_angles(side)))
+        total = np.einsum("fstc,st->c", faces, face_solid_angles(side))
+        faces *= _gain(source.mean(), total / (4 * math.pi))
     light: NDArray[np.float32] = faces.astype(np.float32)
     return light
 
@@ -97,7 +98,8 @@ def _gain(before: Floats, after: Floats) -> Floats:
 def _fineness(texels: int, size: tuple[int, int]) -> int:
     """Return how many readings along each side of a new texel see every texel of the source."""
     width, height = size
-    return max(1, min(_FINEST, math.ceil(2 * math.sqrt(texels / (width * height)))))
+    there = texels / (width * height)
+    return 1 if there <= 1 else min(_FINEST, math.ceil(2 * math.sqrt(there)))
 
 
 def _averaged(
@@ -114,8 +116,12 @@ def _averaged(
         v = 1 - (np.arange(row * fine, last * fine) + 0.5) / (height * fine)
         places = np.stack(np.meshgrid(u, v), axis=-1).reshape(-1, 2)
         towards, valid = layouts.direction(layout, places)
-        weight = (weights[row * fine : last * fine].ravel() * valid)[:, np.newaxis]
         shape = (last - row, fine, width, fine)
+        solid = weights[row * fine : last * fine].reshape(shape)
+        weight = (solid.ravel() * valid)[:, np.newaxis]
+        # A texel of which no reading is on the disc is one of its rim, and read near by.
+        missed = (weight.reshape(shape).sum(axis=(1, 3)) == 0)[:, np.newaxis, :, np.newaxis]
+        weight += (missed & (solid > 0)).reshape(-1, 1)
         light = (reader.read(towards) * weight).reshape(*shape, 3).sum(axis=(1, 3))
         total = weight.reshape(shape).sum(axis=(1, 3))[..., np.newaxis]
         np.divide(light, total, out=pixels[row:last], where=total > 0)

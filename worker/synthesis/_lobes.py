@@ -30,12 +30,12 @@ class Lobe:
 
 def ggx(roughness: float) -> Lobe:
     """Return D V n.l of GGX (Walter et al., 2007) with Heitz's shadowing (2014), for n = v = r."""
-    return Lobe(GGX, max(roughness * roughness, SMOOTHEST))
+    return Lobe(GGX, max(float(roughness * roughness), SMOOTHEST))
 
 
 def phong(exponent: float) -> Lobe:
     """Return max(0, w.r)^exponent (Phong, 1975); at 1 it is what a matt surface gathers."""
-    return Lobe(PHONG, exponent)
+    return Lobe(PHONG, float(exponent))
 
 
 @kernel

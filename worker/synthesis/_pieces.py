@@ -34,8 +34,8 @@ _HORIZON = 0.4  # radians; at its edge, half of the sky away, the widest lobe en
 class Pieces(NamedTuple):
     """Texels of all levels of a cube, those of level k, (6, side, side), from starts[k] on.
 
-    Of each (n, 10): its unit direction and solid angle, where the middle of its light is, and that
-    light times the solid angle.
+    Of each (n, 10): where its middle is, its solid angle, where the middle of its light is, and
+    that light times the solid angle.
     """
 
     texels: NDArray[np.float32]
@@ -46,14 +46,18 @@ class Pieces(NamedTuple):
 def pieces(faces: NDArray[np.float32]) -> Pieces:
     """Take faces (6, side, side, 3) whose side is a power of two, of light that is not negative."""
     side = faces.shape[1]
-    power = faces.sum(axis=-1, dtype=np.float64) * face_solid_angles(side)
-    moment = face_directions(side) * power[..., np.newaxis]
-    texels, sides = [_texels(faces, moment)], [side]
+    solid = face_solid_angles(side)[..., np.newaxis]
+    # Of the place and of the light, so that a constant light has both in the same place
+    moments = [
+        face_directions(side) * np.broadcast_to(solid, (6, side, side, 1)),
+        face_directions(side) * (faces.sum(axis=-1, dtype=np.float64, keepdims=True) * solid),
+    ]
+    texels, sides = [_texels(faces, *moments)], [side]
     while side > 1:
         faces = halved(faces)
         side //= 2
-        moment = moment.reshape(6, side, 2, side, 2, 3).sum(axis=(2, 4))
-        texels.append(_texels(faces, moment))
+        moments = [moment.reshape(6, side, 2, side, 2, 3).sum(axis=(2, 4)) for moment in moments]
+        texels.append(_texels(faces, *moments))
         sides.append(side)
     starts = np.cumsum([0, *(len(level) for level in texels[:-1])])
     return Pieces(np.concatenate(texels), starts, np.array(sides))
@@ -74,13 +78,13 @@ def warm() -> None:
     sums(pieces(np.zeros((6, 2, 2, 3), np.float32)), phong(1.0), np.eye(3))
 
 
-def _texels(faces: NDArray[np.float32], moment: Floats) -> NDArray[np.float32]:
+def _texels(faces: NDArray[np.float32], place: Floats, light: Floats) -> NDArray[np.float32]:
     side = faces.shape[1]
-    directions = face_directions(side)
-    length = np.linalg.norm(moment, axis=-1, keepdims=True)
-    middle = np.divide(moment, length, out=directions.copy(), where=length > 0)
+    middle = place / np.linalg.norm(place, axis=-1, keepdims=True)
+    length = np.linalg.norm(light, axis=-1, keepdims=True)
+    bright = np.divide(light, length, out=middle.copy(), where=length > 0)
     solid = np.broadcast_to(face_solid_angles(side)[..., np.newaxis], (6, side, side, 1))
-    texels = np.concatenate([directions, solid, middle, faces * solid], axis=-1)
+    texels = np.concatenate([middle, solid, bright, faces * solid], axis=-1)
     return texels.reshape(-1, 10).astype(np.float32)
 
 

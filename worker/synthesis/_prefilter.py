@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-_SIDES = (16, 512)
+_SIDES = (64, 512)
 _TEXELS_IN_A_LOBE = 6.0  # of those that are added up
 _NARROW = 2.5  # texels; what is narrower is read between texels
 _GOLDEN_ANGLE = math.pi * (3 - math.sqrt(5))

@@ -52,6 +52,10 @@ class Sphere:
             [np.vdot(self.pixels[..., c].astype(np.float64), self.solid_angles()) for c in range(3)]
         )
 
+    def mean(self) -> Floats:
+        """Return the mean light: three numbers."""
+        return self.power() / float(self.solid_angles().sum())
+
     def directions(self) -> Floats:
         """Return the unit directions (height * width, 3) of texels' middles, the top row first."""
         height, width = self.pixels.shape[:2]
