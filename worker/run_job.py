@@ -127,7 +127,7 @@ def _maker(read: Callable[[ImageSpec, Meaning], Image]) -> TextureMaker:
     def make(spec: TextureSpec, meaning: Meaning) -> Image:
         if isinstance(spec, ImageSpec):
             return read(spec, meaning)
-        size = (spec.surface_side, spec.surface_side)
+        size = spec.surface_size
         return synthesis.synthesize(spec, size, read, meaning)
 
     return make

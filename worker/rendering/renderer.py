@@ -118,7 +118,7 @@ def render(
     built = engine.builder.build(
         scene, width / height, textures, models, tangents="tangent" in output.layers
     )
-    placed = FlatScene(built.drawables, built.view, built.background)
+    placed = FlatScene(built.drawables, built.view, built.background, built.sky)
     eye = built.view.world_from_camera[:3, 3]
     lights = lighting(
         built.lights,
