@@ -66,6 +66,11 @@ class TextureSpec(TechniqueSpec):
     surface_side: ClassVar[int] = 1024
     """Pixels along each side of its picture, where a surface wears it."""
 
+    @property
+    def surface_size(self) -> tuple[int, int]:
+        """Width and height of its picture, where a surface wears it."""
+        return (self.surface_side, self.surface_side)
+
     def inner_size(self, size: tuple[int, int]) -> tuple[int, int]:
         """Return the size that textures within are made at, where this one is made at `size`."""
         return size

@@ -29,14 +29,17 @@ def is_carved(mapped: AnyMap) -> bool:
 
 def worn_depth(texture: TextureSpec) -> int:
     """Return the voxels along each side of a texture's volume, where a surface wears it."""
-    return min(texture.surface_side, _SIDE)
+    return min(*texture.surface_size, _SIDE)
 
 
 def worn_size(texture: TextureSpec, proportion: tuple[int, int]) -> tuple[int, int]:
     """Return width and height of a texture's picture, where a surface wears it.
 
-    Whole multiples of the proportion's sides, and about as many pixels whatever that is.
+    Unless the proportion is that of a square, whole multiples of its sides, and about as many
+    pixels.
     """
+    if proportion == (1, 1):
+        return texture.surface_size
     across, down = proportion
-    unit = max(1, round(texture.surface_side / math.sqrt(across * down)))
+    unit = max(1, round(math.sqrt(math.prod(texture.surface_size) / (across * down))))
     return across * unit, down * unit

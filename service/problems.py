@@ -49,6 +49,7 @@ TABLE: Final[Mapping[str, tuple[int, str]]] = {
     "layout_impossible": (409, "A layout cannot be so"),
     "layout_mismatch": (409, "A picture does not have the shape of its layout"),
     "formula_missing": (409, "A texture has no formula where one is asked for"),
+    "coordinates_missing": (409, "A mesh lacks the texture coordinates that are needed"),
     "layers_need_exr": (409, "A PNG shows one layer only"),
     "layer_unknown": (409, "The technique has no such layer"),
     "over_budget": (409, "The request would take too much time or memory"),

@@ -103,8 +103,10 @@ def test_any_valid_surface_is_drawn_finite_deterministic_and_leaves_its_spec_alo
 
         def worn(spec, meaning, proportion=(1, 1)):
             # The renderer keeps the small ones, a surface's own tables, for those that come after.
-            side = spec.surface_side if spec.surface_side <= 64 else SIZE[0]
-            return synthesize(spec, (side * proportion[0], side * proportion[1]), picture, meaning)
+            if max(spec.surface_size) <= 64:
+                return synthesize(spec, spec.surface_size, picture, meaning)
+            size = (SIZE[0] * proportion[0], SIZE[1] * proportion[1])
+            return synthesize(spec, size, picture, meaning)
 
         def volume(spec, meaning):
             return synthesize_volume(spec, (8, 8, 8), meaning)

@@ -31,6 +31,7 @@ class Studio:
         self._arrays: dict[str, Pixels] = {}
         self.models: dict[str, Model] = {}
         self.facts: dict[str, Any] = {}
+        self.found: dict[str, Any] = {}
         self.reports: list[tuple[float, str]] = []
 
     def texture(self, array: Any) -> dict[str, Any]:
@@ -99,6 +100,7 @@ class Studio:
         )
         bands = list(rendering.bands)
         self.facts = rendering.timings | rendering.counts
+        self.found = rendering.report
         return {name: np.concatenate([band[name].pixels for band in bands]) for name in bands[0]}
 
     def poster(
