@@ -77,7 +77,7 @@ def _textures(value: object, facts: Mapping[str, AssetFacts], pixels: int) -> Co
 def _texels_worn(texture: TextureSpec, facts: Mapping[str, AssetFacts]) -> int:
     """Return how large a texture is on a surface: uploaded pictures stay as large as they are."""
     texels = _texels(texture, facts) if isinstance(texture, ImageSpec) else 0
-    return texels or texture.surface_side**2
+    return texels or math.prod(texture.surface_size)
 
 
 def _texels(picture: ImageSpec, facts: Mapping[str, AssetFacts]) -> int:
@@ -189,7 +189,9 @@ class _WornTextures:
             picture = f"{type(item).__name__} {item.texture.model_dump_json()}"
             if picture not in self._made:
                 self._made.add(picture)
-                picture_cost = _textures(item.texture, self._facts, item.texture.surface_side**2)
+                picture_cost = _textures(
+                    item.texture, self._facts, math.prod(item.texture.surface_size)
+                )
                 self.making = max(self.making, picture_cost.bytes)
                 texels = _texels_worn(item.texture, self._facts)
                 cost += Cost(picture_cost.seconds, texels * BYTES_PER_KEPT_TEXEL)

@@ -59,6 +59,7 @@ TABLE: Final[Mapping[str, tuple[int, str]]] = {
     "job_not_finished": (409, "The job is not finished"),
     "job_cancelled": (409, "The job was cancelled"),
     "job_failed": (409, "The job failed"),
+    "preview_missing": (404, "There is no preview of the job now"),
     "result_evicted": (410, "The result has been removed"),
     "body_too_large": (413, "The body is too large"),
     "media_type_unsupported": (415, "This media type is not taken here"),

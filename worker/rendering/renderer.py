@@ -118,9 +118,15 @@ def render(
     built = engine.builder.build(
         scene, width / height, textures, models, tangents="tangent" in output.layers
     )
-    placed = FlatScene(built.drawables, built.view, built.background)
+    placed = FlatScene(built.drawables, built.view, built.background, built.sky)
     eye = built.view.world_from_camera[:3, 3]
-    lights = lighting(built.lights, eye, built.cookies, placed.corners)
+    lights = lighting(
+        built.lights,
+        eye,
+        built.cookies,
+        placed.corners,
+        visibility="light_visibility" in output.layers,
+    )
     timings = {"build_ms": _milliseconds(time.perf_counter() - start)}
     counts = {"triangles": built.triangles, "texels": built.texels}
     drawn = _bands(engine, placed, lights, output, timings, report)

@@ -20,6 +20,7 @@ from worker.rendering.lookups import TextureSource
 from worker.rendering.placing import ModelReader, TextureMaker, place
 from worker.rendering.pyrender_scene import Background, Drawable, View
 from worker.rendering.shading import Shading, shade
+from worker.rendering.sky import Skies, Sky
 from worker.rendering.staging import lights_of, view_of
 from worker.rendering.textures import Texture
 
@@ -37,6 +38,7 @@ class BuiltScene:
     lights: tuple[Light, ...]
     cookies: Cookies
     background: Background | None
+    sky: Sky | None
     triangles: int
     texels: int
     report: dict[str, Any]
@@ -50,6 +52,7 @@ class SceneBuilder:
         """Begin with nothing in OpenGL."""
         self._textures = ByteCache[Texture](TEXTURE_BYTES_MAX, Texture.delete)
         self._meshes = MeshCache()
+        self._skies = Skies()
 
     def build(
         self,
@@ -97,9 +100,17 @@ class SceneBuilder:
             for item, found in zip(placed, kept, strict=True)
         )
         view = view_of(scene.camera, models, vertices, aspect)
-        lights, left_out = lights_of(scene.lights, models, view.world_from_camera)
+        lights, left_out = lights_of(
+            scene.lights,
+            models,
+            view.world_from_camera,
+            surrounded=scene.environment is not None,
+        )
+        sky = None if scene.environment is None else self._skies.sky(scene.environment, maker)
         cookies = cookies_of(lights, self._source(maker))
         background = self._background(scene.background, maker)
+        if background is None and scene.environment is not None and scene.environment.visible:
+            background = sky
         shadings = [drawable.shading for drawable in drawables]
         if isinstance(background, Shading):
             shadings.append(background)
@@ -112,6 +123,7 @@ class SceneBuilder:
             drawables=tuple(drawables),
             view=view,
             background=background,
+            sky=sky,
             lights=tuple(lights),
             cookies=cookies,
             triangles=sum(len(found.mesh.elements) for found in kept),
@@ -126,6 +138,7 @@ class SceneBuilder:
         """Free what exceeds the bounds; call it when nothing is being drawn."""
         self._textures.trim()
         self._meshes.trim()
+        self._skies.trim()
 
     def _shading(self, surface: SurfaceSpec, maker: TextureMaker) -> Shading:
         return shade(surface, self._source(maker))

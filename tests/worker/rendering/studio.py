@@ -48,7 +48,7 @@ class Studio:
         """Give a texture's picture: the array behind an image, else as its technique makes it."""
         if isinstance(spec, ImageSpec):
             return Image(self._arrays[spec.asset], meaning)
-        size = (spec.surface_side, spec.surface_side)
+        size = spec.surface_size
         return synthesize(spec, size, self.make, meaning)
 
     def mesh(self, mesh: Mesh) -> dict[str, Any]:
