@@ -87,9 +87,7 @@ def test_every_mode_of_opacity_may_stand_beside_the_others(studio: Studio) -> No
 
 
 def test_it_is_one_thing_of_several_materials(studio: Studio) -> None:
-    layers = poster(
-        studio, "object_id", "material_id", surface_map=among(studio, RED, GREEN, BLUE)
-    )
+    layers = poster(studio, "object_id", "material_id", surface_map=among(studio, RED, GREEN, BLUE))
 
     assert (layers["object_id"] == 1).all()
     np.testing.assert_array_equal(layers["material_id"][..., 0], blocks(CODES) + 1)
