@@ -22,9 +22,10 @@ from worker.models.model import Model
 from worker.rendering.gl_context import GLContext, check
 from worker.rendering.lighting import Lighting, lighting
 from worker.rendering.packing import PICTURE, PLACES
+from worker.rendering.placing import ModelReader, TextureMaker
 from worker.rendering.pyrender_adapter import FloatRenderer
 from worker.rendering.pyrender_scene import FlatScene
-from worker.rendering.scene_builder import ModelReader, SceneBuilder, TextureMaker
+from worker.rendering.scene_builder import SceneBuilder
 from worker.rendering.shading import surface_fields
 from worker.rendering.targets import Target, TargetPair
 from worker.rendering.tiles import (
@@ -117,13 +118,19 @@ def render(
     built = engine.builder.build(
         scene, width / height, textures, models, tangents="tangent" in output.layers
     )
-    placed = FlatScene(built.drawables, built.view, built.background)
+    placed = FlatScene(built.drawables, built.view, built.background, built.sky)
     eye = built.view.world_from_camera[:3, 3]
-    lights = lighting(built.lights, eye, built.cookies, placed.corners)
+    lights = lighting(
+        built.lights,
+        eye,
+        built.cookies,
+        placed.corners,
+        visibility="light_visibility" in output.layers,
+    )
     timings = {"build_ms": _milliseconds(time.perf_counter() - start)}
     counts = {"triangles": built.triangles, "texels": built.texels}
     drawn = _bands(engine, placed, lights, output, timings, report)
-    return Rendering(drawn, counts, timings, {}, built.warnings)
+    return Rendering(drawn, counts, timings, built.report, built.warnings)
 
 
 def _bands(
