@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from api_schemas.camera import Camera, FramedCamera, ModelCamera
 from api_schemas.cookies import COOKIES_MAX
+from api_schemas.environment import Environment
 from api_schemas.families import SurfaceSpec, TextureSpec
 from api_schemas.geometry import IDENTITY, Affine, Vector3, affine, cross, length, triple
 from api_schemas.light_cost import cookies_of
@@ -14,6 +15,7 @@ from api_schemas.model_mesh import ModelMesh
 from api_schemas.output import RenderOutput, TextureOutput
 from api_schemas.requests import Request, TextureRequest
 from api_schemas.scene import NODES_MAX, Node
+from api_schemas.sky import SKY_MAPS
 from api_schemas.textures.image import ImageSpec
 from api_schemas.transforms import MatrixPlacement
 from api_schemas.walk import deepest, escaped, parts
@@ -71,14 +73,16 @@ def _limits(request: Request) -> Iterator[Obstacle]:
             "nesting_too_deep", place, f"{levels} levels within each other; at most {LEVELS_MAX}"
         )
     textures, nodes = 0, 0
+    surrounded = any(isinstance(part, Environment) for _, part in parts(request))
+    most = MAPS_MAX - SKY_MAPS * surrounded
     for pointer, part in parts(request):
         textures += isinstance(part, TextureSpec)
         nodes += isinstance(part, Node)
         if isinstance(part, SurfaceSpec):
             maps = sum(isinstance(value, Map) for _, value in parts(part))
-            if maps > MAPS_MAX:
+            if maps > most:
                 yield Obstacle(
-                    "too_many_maps", pointer, f"{maps} maps on one surface; at most {MAPS_MAX}"
+                    "too_many_maps", pointer, f"{maps} maps on one surface; at most {most}"
                 )
         if isinstance(part, Map) and part.layout and part.coordinates.dimensions != 3:
             yield Obstacle(
