@@ -4,6 +4,7 @@ from collections.abc import Iterator, Sequence
 
 from api_schemas.camera import Camera, FramedCamera, ModelCamera
 from api_schemas.cookies import COOKIES_MAX
+from api_schemas.environment import Environment
 from api_schemas.families import SurfaceSpec, TextureSpec
 from api_schemas.geometry import IDENTITY, Affine, Vector3, affine, cross, length, triple
 from api_schemas.light_cost import cookies_of
@@ -15,6 +16,7 @@ from api_schemas.obstacle import Obstacle
 from api_schemas.output import RenderOutput, TextureOutput
 from api_schemas.requests import Request, TextureRequest
 from api_schemas.scene import NODES_MAX, Node
+from api_schemas.sky import SKY_MAPS
 from api_schemas.textures.image import ImageSpec
 from api_schemas.transforms import MatrixPlacement
 from api_schemas.walk import deepest, escaped, parts
@@ -63,14 +65,16 @@ def _limits(request: Request) -> Iterator[Obstacle]:
             "nesting_too_deep", place, f"{levels} levels within each other; at most {LEVELS_MAX}"
         )
     textures, nodes = 0, 0
+    surrounded = any(isinstance(part, Environment) for _, part in parts(request))
+    most = MAPS_MAX - SKY_MAPS * surrounded
     for pointer, part in parts(request):
         textures += isinstance(part, TextureSpec)
         nodes += isinstance(part, Node)
         if isinstance(part, SurfaceSpec):
             maps = sum(isinstance(value, Map) for _, value in parts(part))
-            if maps > MAPS_MAX:
+            if maps > most:
                 yield Obstacle(
-                    "too_many_maps", pointer, f"{maps} maps on one surface; at most {MAPS_MAX}"
+                    "too_many_maps", pointer, f"{maps} maps on one surface; at most {most}"
                 )
         if isinstance(part, Map):
             yield from map_obstacles(part, pointer)

@@ -45,6 +45,8 @@ TABLE: Final[Mapping[str, tuple[int, str]]] = {
     "time_step_unstable": (409, "The steps of a reaction are too long to be stable"),
     "no_steady_state": (409, "The chemicals of a reaction are nowhere at rest"),
     "reaction_diverged": (409, "The chemicals of a reaction grew without end"),
+    "environment_texels": (409, "Numbers of an environment are infinite or none"),
+    "layout_mismatch": (409, "The picture has not the shape of its layout"),
     "layout_without_direction": (409, "A layout needs coordinates that are a direction"),
     "layout_impossible": (409, "A layout cannot be so"),
     "layout_mismatch": (409, "A picture does not have the shape of its layout"),
