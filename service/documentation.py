@@ -122,6 +122,8 @@ OBSTACLE_CODES: Final = (
     "reaction_diverged",
     "layers_need_exr",
     "layer_unknown",
+    "texture_not_solid",
+    "atlas_too_large",
     "over_budget",
 )
 

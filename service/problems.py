@@ -48,6 +48,8 @@ TABLE: Final[Mapping[str, tuple[int, str]]] = {
     "layout_without_direction": (409, "A layout needs coordinates that are a direction"),
     "layers_need_exr": (409, "A PNG shows one layer only"),
     "layer_unknown": (409, "The technique has no such layer"),
+    "texture_not_solid": (409, "The texture does not fill space"),
+    "atlas_too_large": (409, "The slices do not fit beside each other"),
     "over_budget": (409, "The request would take too much time or memory"),
     "sweep_pointer_unknown": (409, "A sweep leads to something that is not there"),
     "sweep_pointers_overlap": (409, "Two axes of a sweep change the same thing"),
