@@ -7,8 +7,8 @@ from api_schemas.assets import AssetFacts, ImageFacts, MaterialLibraryFacts, Mod
 from api_schemas.base import Schema
 from api_schemas.camera import ModelCamera
 from api_schemas.families import LayoutSpec
-from api_schemas.feasibility import Obstacle
 from api_schemas.model_mesh import ModelMesh
+from api_schemas.obstacle import Obstacle
 from api_schemas.requests import RenderRequest, Request
 from api_schemas.textures.image import ImageSpec
 from api_schemas.walk import escaped, parts

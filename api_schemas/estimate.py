@@ -15,6 +15,7 @@ from api_schemas.bodies import (
     SECONDS_PER_TEXEL,
     Body,
     body,
+    displaced,
 )
 from api_schemas.camera import Camera, FramedCamera, ModelCamera, PosedCamera
 from api_schemas.cookies import Cookie
@@ -25,7 +26,7 @@ from api_schemas.geometry import IDENTITY, Affine, Vector3, affine
 from api_schemas.light_cost import cookies_of, seconds_of_shadows, shadow_maps
 from api_schemas.lights import LIGHTS_MAX
 from api_schemas.output_cost import samples_of, sampling, tiles_of, writing
-from api_schemas.relief import AnyMap
+from api_schemas.relief import AnyMap, ParallaxMap
 from api_schemas.requests import RenderRequest, Request
 from api_schemas.scene import Node
 from api_schemas.sky import SKY_SECONDS_PER_SAMPLE, sky_textures
@@ -39,7 +40,9 @@ SECONDS_PER_MAP_SAMPLE = {
     "bilinear": 1e-8,
     "trilinear": 2e-8,
     "anisotropic": 1.5e-7,
+    "formula": 4e-7,
 }
+SECONDS_PER_PARALLAX_STEP = 2e-8
 SECONDS_TO_COMPILE_A_MAP = 0.12
 SECONDS_PER_DRAWN_TRIANGLE = 5e-8
 SECONDS_PER_DRAW = 2e-4
@@ -58,7 +61,15 @@ def estimate(request: Request, facts: Mapping[str, AssetFacts]) -> Cost:
     width, height = request.output.size
     if isinstance(request, RenderRequest):
         return cost + _drawing(request, facts)
+    if request.output.slices:
+        return cost + volume_of(request.texture, width * height * request.output.slices)
     return cost + _textures(request, facts, width * height)
+
+
+def volume_of(texture: TextureSpec, voxels: int) -> Cost:
+    """Return the cost of making a solid texture, with all that are in it."""
+    found = (part for _, part in parts(texture) if isinstance(part, TextureSpec))
+    return sum((part.volume_cost(voxels) for part in found), Cost())
 
 
 def _textures(value: object, facts: Mapping[str, AssetFacts], pixels: int) -> Cost:
@@ -90,7 +101,7 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
     cost = sampling(request.output)
     scene = request.scene
     drawn = [
-        (node, _moved(placed, found.middle), found)
+        (node, _moved(placed, found.middle), displaced(found, node.displacement))
         for node, placed in _placed(scene.nodes, IDENTITY)
         if node.mesh is not None and (found := body(node.mesh, facts)) is not None
     ]
@@ -129,7 +140,7 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
         shown = node.surface or node.mesh
         surfaces = [part for _, part in parts(shown) if isinstance(part, SurfaceSpec)]
         maps = [_maps(surface) for surface in surfaces]
-        for worn in maps:
+        for worn in [*maps, _maps(node.displacement)]:
             cost += textures.cost(worn)
         own = MAPS_OF_A_MATERIAL * found.pictures * SECONDS_PER_MAP_SAMPLE["anisotropic"]
         shading = lighting + max([own, *map(_seconds_per_sample, maps)])
@@ -151,7 +162,13 @@ def _maps(value: object) -> list[MAPS]:
 
 def _seconds_per_sample(maps: Sequence[MAPS]) -> float:
     """Return the seconds that looking up all of them once takes."""
-    return sum(SECONDS_PER_MAP_SAMPLE[item.filter] for item in maps)
+    return sum(_seconds_per_look(item) for item in maps)
+
+
+def _seconds_per_look(item: MAPS) -> float:
+    if isinstance(item, ParallaxMap):
+        return SECONDS_PER_PARALLAX_STEP * (1 if item.method == "offset" else item.steps)
+    return SECONDS_PER_MAP_SAMPLE[item.filter]
 
 
 def _moved(placed: Affine | None, middle: Vector3) -> Affine | None:

@@ -158,6 +158,8 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         if is_lit(layout.technique):
             sky = self._frame.scene.sky
             lights = replace(self._frame.lights.layout, sky=sky.kind if sky else "none")
+        elif self._frame.lights.layout.visibility:
+            lights = self._frame.lights.layout
         return self._linked(
             (layout, lights, layered), lambda: surface_sources(layout, lights, layered=layered)
         )
