@@ -76,6 +76,12 @@ class TextureOutput(Output):
         "its own layers, by name. An EXR holds all that are named, as channels; a PNG shows one "
         "layer instead of the picture.",
     )
+    mipmaps: bool = Field(
+        default=False,
+        description="Whether an EXR is cut into tiles of 64 pixels and holds the picture at half, "
+        "a quarter ... of its size too, each pixel the mean of what it covers: what renderers and "
+        "texture caches (.tx) read a part at a time.",
+    )
 
 
 class RenderOutput(Output):

@@ -47,6 +47,7 @@ TABLE: Final[Mapping[str, tuple[int, str]]] = {
     "reaction_diverged": (409, "The chemicals of a reaction grew without end"),
     "layout_without_direction": (409, "A layout needs coordinates that are a direction"),
     "coordinates_missing": (409, "A mesh lacks the texture coordinates that are needed"),
+    "mipmaps_need_exr": (409, "A PNG holds one size only"),
     "layers_need_exr": (409, "A PNG shows one layer only"),
     "layer_unknown": (409, "The technique has no such layer"),
     "over_budget": (409, "The request would take too much time or memory"),
