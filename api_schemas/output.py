@@ -1,5 +1,6 @@
 """What the finished picture looks like as a file."""
 
+import math
 from collections.abc import Mapping
 from typing import Annotated, Literal
 
@@ -65,6 +66,11 @@ class Output(Schema):
         "softly, or like film.",
     )
 
+    @property
+    def file_size(self) -> tuple[int, int]:
+        """Width and height of the file."""
+        return self.size[0], self.size[1]
+
 
 class TextureOutput(Output):
     """The same, for textures."""
@@ -76,12 +82,40 @@ class TextureOutput(Output):
         "its own layers, by name. An EXR holds all that are named, as channels; a PNG shows one "
         "layer instead of the picture.",
     )
+<<<<<<< HEAD
     mipmaps: bool = Field(
         default=False,
         description="Whether an EXR is cut into tiles of 64 pixels and holds the picture at half, "
         "a quarter ... of its size too, each pixel the mean of what it covers: what renderers and "
         "texture caches (.tx) read a part at a time.",
     )
+=======
+    slices: Annotated[int, Field(ge=1, le=1024), WHOLE] | None = Field(
+        default=None,
+        description="Makes a solid texture as a volume of so many slices, the first one at w = 0; "
+        "size is that of a slice.",
+    )
+    arrangement: Literal["atlas", "layers"] = Field(
+        default="atlas",
+        description="Where slices go: beside each other into one picture, in rows from the upper "
+        "left, as nearly square as can be, what is left over 0; or into an EXR as layers "
+        "slice_0000, slice_0001 and so on, beside the first one as the picture.",
+    )
+
+    @property
+    def columns(self) -> int:
+        """Slices in a row of the file."""
+        slices = self.slices if self.slices and self.arrangement == "atlas" else 1
+        width, height = self.size
+        return max(1, min(slices, round(math.sqrt(slices * height / width))))
+
+    @property
+    def file_size(self) -> tuple[int, int]:
+        """Width and height of the file: of all slices, where they lie beside each other."""
+        slices = self.slices if self.slices and self.arrangement == "atlas" else 1
+        rows = math.ceil(slices / self.columns)
+        return self.size[0] * self.columns, self.size[1] * rows
+>>>>>>> main
 
 
 class RenderOutput(Output):
@@ -102,8 +136,8 @@ class RenderOutput(Output):
         "the same order, equal surfaces together; coverage, the share of the pixel that things "
         "cover; light_visibility, the share of the lamps' light that shadows leave, 0 where a "
         "surface faces away. All but albedo and coverage belong to the nearest sample, are never "
-        "averaged and 0 where nothing is; what is blended leaves them to what is behind it. A PNG shows one layer "
-        "instead of the colour: albedo like a picture, directions as n / 2 + 1/2, depth as "
-        "1 / (1 + Z), uv as red and green, an id as its own code, position and coverage as they "
-        "are, cut off outside of 0..1.",
+        "averaged and 0 where nothing is; what is blended leaves them to what is behind it. A PNG "
+        "shows one layer instead of the colour: albedo like a picture, directions as n / 2 + 1/2, "
+        "depth as 1 / (1 + Z), uv as red and green, an id as its own code, position and coverage "
+        "as they are, cut off outside of 0..1.",
     )

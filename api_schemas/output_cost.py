@@ -42,7 +42,9 @@ _BYTES_PER_LAYERED_SAMPLE = 240
 
 def writing(output: Output) -> Cost:
     """Return the cost of making a file of pixels that are there."""
-    pixels = output.size[0] * output.size[1]
+    pixels = math.prod(output.file_size)
+    if isinstance(output, TextureOutput) and output.slices:
+        pixels = max(pixels, math.prod(output.size) * output.slices)
     if output.format == "exr":
         seconds = _SECONDS_PER_EXR_PIXEL[output.exr_type]
     else:
