@@ -36,12 +36,9 @@ def obstacles(request: Request) -> list[Obstacle]:
         return found
     found += _refusals(request)
     if isinstance(request, TextureRequest):
-<<<<<<< HEAD
         output = request.output
-        return [*found, *_layer_names(request), *_layers(output), *_mipmaps(output)]
-=======
-        return [*found, *_slices(request), *_layer_names(request), *_layers(request.output)]
->>>>>>> main
+        found += [*_slices(request), *_layer_names(request), *_layers(output)]
+        return [*found, *_mipmaps(output)]
     found += _camera(request.scene.camera)
     found += _cookies(request.scene.lights or [])
     for index, light in enumerate(request.scene.lights or []):
