@@ -51,6 +51,7 @@ TABLE: Final[Mapping[str, tuple[int, str]]] = {
     "layout_impossible": (409, "A layout cannot be so"),
     "formula_missing": (409, "A texture has no formula where one is asked for"),
     "coordinates_missing": (409, "A mesh lacks the texture coordinates that are needed"),
+    "mipmaps_need_exr": (409, "A PNG holds one size only"),
     "layers_need_exr": (409, "A PNG shows one layer only"),
     "layer_unknown": (409, "The technique has no such layer"),
     "texture_not_solid": (409, "The texture does not fill space"),

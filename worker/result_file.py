@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from api_schemas.output import MEDIA_TYPES, Output, PngBits
+from api_schemas.output import MEDIA_TYPES, Output, PngBits, TextureOutput
 from api_schemas.version import VERSION
 from worker.images import image_io
 from worker.images.image import Image
@@ -47,6 +47,7 @@ def write(bands: Iterable[Mapping[str, Image]], output: Output, digest: str, pat
             pixel_type=output.exr_type,
             digest=digest,
             version=VERSION,
+            mipmaps=isinstance(output, TextureOutput) and output.mipmaps,
         )
         return MEDIA_TYPES["exr"]
     pictures = (_shown(band, output.png_bits) for band in bands)
