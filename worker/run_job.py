@@ -19,7 +19,7 @@ from worker.fingerprint import fingerprint
 from worker.images.image import Image
 from worker.rendering import renderer
 from worker.rendering.packing import PICTURE
-from worker.rendering.scene_builder import TextureMaker
+from worker.rendering.sources import TextureMaker
 from worker.stages import Report, Stages, Timed
 from worker.uploaded_models import UploadedModels
 from worker.uploaded_pictures import UploadedPictures
@@ -74,7 +74,9 @@ def run(request: dict[str, Any], out: Path, report: Report) -> dict[str, Any]:
             )
             bands = Timed(drawn.bands)
             start = time.perf_counter()
-            media_type = result_file.write(bands, body.output, request["digest"], out)
+            media_type = result_file.write(
+                bands, body.output, request["digest"], out, drawn.attributes
+            )
             encoding = 1000 * (time.perf_counter() - start - bands.seconds)
         timings["encode_ms"] = round(encoding, 3)
         timings["render_ms"] = round(timings["render_ms"] - encoding, 3)
