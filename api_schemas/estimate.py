@@ -15,6 +15,7 @@ from api_schemas.bodies import (
     SECONDS_PER_TEXEL,
     Body,
     body,
+    displaced,
 )
 from api_schemas.camera import Camera, FramedCamera, ModelCamera, PosedCamera
 from api_schemas.cookies import Cookie
@@ -25,7 +26,7 @@ from api_schemas.geometry import IDENTITY, Affine, Vector3, affine
 from api_schemas.light_cost import cookies_of, seconds_of_shadows, shadow_maps
 from api_schemas.lights import LIGHTS_MAX
 from api_schemas.output_cost import samples_of, sampling, tiles_of, writing
-from api_schemas.relief import AnyMap
+from api_schemas.relief import AnyMap, ParallaxMap
 from api_schemas.requests import RenderRequest, Request
 from api_schemas.scene import Node
 from api_schemas.textures.image import ImageSpec
@@ -39,6 +40,7 @@ SECONDS_PER_MAP_SAMPLE = {
     "trilinear": 2e-8,
     "anisotropic": 1.5e-7,
 }
+SECONDS_PER_PARALLAX_STEP = 2e-8
 SECONDS_TO_COMPILE_A_MAP = 0.12
 SECONDS_PER_DRAWN_TRIANGLE = 5e-8
 SECONDS_PER_DRAW = 2e-4
@@ -75,7 +77,7 @@ def _textures(value: object, facts: Mapping[str, AssetFacts], pixels: int) -> Co
 def _texels_worn(texture: TextureSpec, facts: Mapping[str, AssetFacts]) -> int:
     """Return how large a texture is on a surface: uploaded pictures stay as large as they are."""
     texels = _texels(texture, facts) if isinstance(texture, ImageSpec) else 0
-    return texels or texture.surface_side**2
+    return texels or math.prod(texture.surface_size)
 
 
 def _texels(picture: ImageSpec, facts: Mapping[str, AssetFacts]) -> int:
@@ -89,7 +91,7 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
     cost = sampling(request.output)
     scene = request.scene
     drawn = [
-        (node, _moved(placed, found.middle), found)
+        (node, _moved(placed, found.middle), displaced(found, node.displacement))
         for node, placed in _placed(scene.nodes, IDENTITY)
         if node.mesh is not None and (found := body(node.mesh, facts)) is not None
     ]
@@ -122,7 +124,7 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
         shown = node.surface or node.mesh
         surfaces = [part for _, part in parts(shown) if isinstance(part, SurfaceSpec)]
         maps = [_maps(surface) for surface in surfaces]
-        for worn in maps:
+        for worn in [*maps, _maps(node.displacement)]:
             cost += textures.cost(worn)
         own = MAPS_OF_A_MATERIAL * found.pictures * SECONDS_PER_MAP_SAMPLE["anisotropic"]
         shading = lighting + max([own, *map(_seconds_per_sample, maps)])
@@ -144,7 +146,13 @@ def _maps(value: object) -> list[MAPS]:
 
 def _seconds_per_sample(maps: Sequence[MAPS]) -> float:
     """Return the seconds that looking up all of them once takes."""
-    return sum(SECONDS_PER_MAP_SAMPLE[item.filter] for item in maps)
+    return sum(_seconds_per_look(item) for item in maps)
+
+
+def _seconds_per_look(item: MAPS) -> float:
+    if isinstance(item, ParallaxMap):
+        return SECONDS_PER_PARALLAX_STEP * (1 if item.method == "offset" else item.steps)
+    return SECONDS_PER_MAP_SAMPLE[item.filter]
 
 
 def _moved(placed: Affine | None, middle: Vector3) -> Affine | None:
@@ -181,7 +189,9 @@ class _WornTextures:
             picture = f"{type(item).__name__} {item.texture.model_dump_json()}"
             if picture not in self._made:
                 self._made.add(picture)
-                picture_cost = _textures(item.texture, self._facts, item.texture.surface_side**2)
+                picture_cost = _textures(
+                    item.texture, self._facts, math.prod(item.texture.surface_size)
+                )
                 self.making = max(self.making, picture_cost.bytes)
                 texels = _texels_worn(item.texture, self._facts)
                 cost += Cost(picture_cost.seconds, texels * BYTES_PER_KEPT_TEXEL)

@@ -92,8 +92,8 @@ def test_any_valid_surface_is_drawn_finite_deterministic_and_leaves_its_spec_alo
 
         def maker(spec, meaning):
             # The renderer keeps the small ones, a surface's own tables, for those that come after.
-            side = spec.surface_side if spec.surface_side <= 64 else SIZE[0]
-            return synthesize(spec, (side, side), picture, meaning)
+            small = max(spec.surface_size) <= 64
+            return synthesize(spec, spec.surface_size if small else SIZE, picture, meaning)
 
         rendering = render(
             scene,

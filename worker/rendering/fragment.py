@@ -11,6 +11,7 @@ from worker.rendering.shading_layout import (
     LookupLayout,
     Parameter,
     ShadingLayout,
+    SkyKind,
 )
 
 VERSION = "#version 410 core"
@@ -73,6 +74,22 @@ def background_sources(layout: ShadingLayout) -> tuple[Source, Source]:
     return vertex, join("\n".join(lines), "background")
 
 
+def sky_sources(kind: SkyKind) -> tuple[Source, Source]:
+    """Return the sources that draw what is behind everything as the eye looks through it."""
+    lines = [
+        VERSION,
+        '#include "lib/sky_background.glsl"',
+        f'#include "skies/{kind}.glsl"',
+        "void main() {",
+        "    vec3 towards = ray();",
+        "    float reach = max(length(dFdx(towards)), length(dFdy(towards)));",
+        "    color = holdable(vec4(sky_in_mirror(towards, reach, 0.0), 1.0));",
+        "}",
+    ]
+    vertex = join(chunk("whole_target.vert"), "whole_target.vert")
+    return vertex, join("\n".join(lines), "sky")
+
+
 def _fragment(layout: ShadingLayout, lights: LightLayout, layered: bool) -> str:
     others = (layout.opacity, layout.light_map, layout.selection)
     parameters = [*layout.parameters, *(parameter for parameter in others if parameter)]
@@ -83,6 +100,8 @@ def _fragment(layout: ShadingLayout, lights: LightLayout, layered: bool) -> str:
     chunks += ["lib/opacity.glsl"] if layout.opacity else []
     chunks += ["lib/layers.glsl"] if layered else []
     lit = is_lit(layout.technique) or lights.visibility
+    if is_lit(layout.technique):
+        chunks.append(f"skies/{lights.sky}.glsl")
     chunks += light_chunks(lights) if lit else []
     lines = _head(layout, chunks)
     lines += light_lines(lights) if lit else []

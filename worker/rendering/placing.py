@@ -1,12 +1,14 @@
-"""From the tree of a request's nodes to things that stand in the world."""
+"""From a request's nodes to meshes that stand somewhere in the world, each with its surface."""
 
+import functools
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
+from typing import Protocol
 
 import numpy as np
 
-from api_schemas.families import SurfaceSpec
+from api_schemas.families import Meaning, SurfaceSpec, TextureSpec
 from api_schemas.model_mesh import ModelMesh
 from api_schemas.relief import Displacement
 from api_schemas.scene import Node
@@ -14,14 +16,28 @@ from api_schemas.surfaces.phong import PhongSpec
 from worker.geometry import primitives
 from worker.geometry.mesh import Mesh
 from worker.geometry.transforms import Matrix, parent_from_node
+from worker.images.image import Image
 from worker.models.model import Model, Part
-from worker.rendering.displacing import with_relief
+from worker.rendering.displacing import levels_of, with_relief
 from worker.rendering.model_changes import seen_parts
 from worker.rendering.shading import Selection
-from worker.rendering.sources import ModelReader, TextureMaker
 from worker.rendering.staging import PlacedModel
 
 _MATT_GREY = PhongSpec(technique="phong")
+
+
+class TextureMaker(Protocol):
+    """Turns a texture of the language into a picture."""
+
+    def __call__(self, spec: TextureSpec, meaning: Meaning, /) -> Image:
+        """Return the picture, read as colour or as data."""
+
+
+class ModelReader(Protocol):
+    """Reads uploaded models."""
+
+    def __call__(self, mesh: ModelMesh, /) -> Model:
+        """Return the model."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,10 +76,16 @@ class Placed:
 def place(
     nodes: list[Node], maker: TextureMaker, reader: ModelReader
 ) -> tuple[list[Placed], list[PlacedModel]]:
-    """Return all that is drawn, numbered from 1, and the models it is of.
+    """Return what is drawn, in the order of the request, and the models it is from.
+
+    Args:
+        nodes: The scene's.
+        maker: Makes the pictures of reliefs.
+        reader: Reads the uploaded models.
 
     Raises:
-        WorkerError: A model cannot be read or has no such part.
+        WorkerError: A model cannot be read or has no such part, or a relief would have too many
+            triangles.
     """
     placed: list[Placed] = []
     models: list[PlacedModel] = []
@@ -73,19 +95,20 @@ def place(
             model = reader(node.mesh)
             models.append(PlacedModel(model, matrix))
             found = list(_parts(node, node.mesh, model, matrix))
+            triangles = model.triangles
         elif node.mesh is not None:
             key = node.mesh.model_dump_json()
             make = partial(primitives.build, node.mesh)
             found = [Placed(key, make, node.surface or _MATT_GREY, matrix, node, node.name or "")]
+            triangles = node.mesh.triangles
         else:
             continue
         if node.displacement is not None:
-            found = [_displaced(item, node.displacement, maker) for item in found]
+            found = list(_displaced(found, node.displacement, triangles, maker))
         for item in found:
             things += 1
-            kind = "" if node.mesh is None else node.mesh.type
-            named = replace(item, thing=things, name=item.name or f"{kind} {things}")
-            placed += _selected(named)
+            name = item.name or f"{node.mesh.type} {things}"
+            placed += _selected(replace(item, thing=things, name=name))
     return placed, models
 
 
@@ -121,11 +144,18 @@ def _parts(node: Node, mesh: ModelMesh, model: Model, matrix: Matrix) -> Iterato
         )
 
 
-def _displaced(item: Placed, spec: Displacement, maker: TextureMaker) -> Placed:
-    def mesh() -> Mesh:
-        return with_relief(item.mesh(), spec, maker(spec.texture, "data"))
+def _displaced(
+    items: list[Placed], spec: Displacement, triangles: int, maker: TextureMaker
+) -> Iterator[Placed]:
+    levels = levels_of(spec, triangles)
+    image = functools.cache(lambda: maker(spec.texture, "data"))
 
-    return replace(item, key=f"{item.key} {spec.model_dump_json()}", mesh=mesh)
+    def moved(make: Callable[[], Mesh]) -> Mesh:
+        return with_relief(make(), spec, levels, image())
+
+    for item in items:
+        key = f"{item.key} {levels} {spec.model_dump_json()}"
+        yield replace(item, key=key, mesh=partial(moved, item.mesh))
 
 
 def _mesh_of(part: Part) -> Mesh:

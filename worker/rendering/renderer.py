@@ -22,6 +22,7 @@ from worker.rendering.bands import Band, OpenBand
 from worker.rendering.cryptomatte import Mattes, attributes, mattes_of
 from worker.rendering.gl_context import GLContext, check
 from worker.rendering.lighting import Lighting, lighting
+from worker.rendering.placing import ModelReader, TextureMaker
 from worker.rendering.pyrender_adapter import FloatRenderer
 from worker.rendering.pyrender_scene import FlatScene
 from worker.rendering.scene_builder import SceneBuilder
@@ -117,7 +118,7 @@ def render(
     built = engine.builder.build(
         scene, width / height, textures, models, tangents="tangent" in output.layers
     )
-    placed = FlatScene(built.drawables, built.view, built.background)
+    placed = FlatScene(built.drawables, built.view, built.background, built.sky)
     eye = built.view.world_from_camera[:3, 3]
     lights = lighting(
         built.lights,
@@ -130,7 +131,7 @@ def render(
     counts = {"triangles": built.triangles, "texels": built.texels}
     mattes = mattes_of(built.drawables, output.layers)
     drawn = _bands(engine, placed, lights, mattes, output, timings, report)
-    return Rendering(drawn, counts, timings, attributes(mattes), {}, built.warnings)
+    return Rendering(drawn, counts, timings, attributes(mattes), built.report, built.warnings)
 
 
 def _bands(

@@ -2,6 +2,7 @@
 
 import itertools
 from dataclasses import dataclass
+from typing import Any
 
 from api_schemas.coordinates.uv import UvSpec
 from api_schemas.families import Meaning, SurfaceSpec, TextureSpec
@@ -9,24 +10,21 @@ from api_schemas.lights import Light
 from api_schemas.maps import ColorMap
 from api_schemas.scene import Scene
 from api_schemas.surfaces.unlit import UnlitSpec
-from worker.geometry.tangents import with_tangents
 from worker.images.image import Image
 from worker.images.pyramids import Cut, keep_coverage, mip_chain
 from worker.images.relief import Preparation, prepared
 from worker.rendering.cache import ByteCache
 from worker.rendering.cookies import Cookies, cookies_of
+from worker.rendering.kept_meshes import MeshCache, frames_report
 from worker.rendering.lookups import TextureSource
-from worker.rendering.placing import Placed, place
+from worker.rendering.placing import ModelReader, TextureMaker, place
 from worker.rendering.pyrender_scene import Background, Drawable, View
-from worker.rendering.relief_shading import TangentsWanted, tangents_wanted
 from worker.rendering.shading import Shading, shade
-from worker.rendering.sources import ModelReader, TextureMaker
+from worker.rendering.sky import Skies, Sky
 from worker.rendering.staging import lights_of, view_of
 from worker.rendering.textures import Texture
-from worker.rendering.vertex_arrays import VertexArray
 
 TEXTURE_BYTES_MAX = 128 << 20
-MESH_BYTES_MAX = 64 << 20
 LARGEST_LIGHT = 5e36
 """Of a picture, as in lib/picture.glsl."""
 
@@ -40,8 +38,10 @@ class BuiltScene:
     lights: tuple[Light, ...]
     cookies: Cookies
     background: Background | None
+    sky: Sky | None
     triangles: int
     texels: int
+    report: dict[str, Any]
     warnings: tuple[str, ...]
 
 
@@ -51,7 +51,8 @@ class SceneBuilder:
     def __init__(self) -> None:
         """Begin with nothing in OpenGL."""
         self._textures = ByteCache[Texture](TEXTURE_BYTES_MAX, Texture.delete)
-        self._meshes = ByteCache[VertexArray](MESH_BYTES_MAX, VertexArray.delete)
+        self._meshes = MeshCache()
+        self._skies = Skies()
 
     def build(
         self,
@@ -76,17 +77,17 @@ class SceneBuilder:
                 a model cannot be read or has no such part.
         """
         placed, models = place(scene.nodes, maker, reader)
-        kept = [self._kept(item, tangents) for item in placed]
+        kept = [self._meshes.get(item, tangents) for item in placed]
         worn: dict[str, tuple[Shading, int]] = {}
         drawables = []
-        for item, mesh in zip(placed, kept, strict=True):
+        for item, found in zip(placed, kept, strict=True):
             key = item.worn
             if key not in worn:
                 shading = shade(item.surface, self._source(maker), item.selection)
                 worn[key] = shading, len(worn) + 1
             drawables.append(
                 Drawable(
-                    mesh,
+                    found.mesh,
                     worn[key][0],
                     item.world_from_object,
                     worn[key][1],
@@ -96,13 +97,21 @@ class SceneBuilder:
                 )
             )
         vertices = (
-            (mesh.positions, item.world_from_object)
-            for item, mesh in zip(placed, kept, strict=True)
+            (found.mesh.positions, item.world_from_object)
+            for item, found in zip(placed, kept, strict=True)
         )
         view = view_of(scene.camera, models, vertices, aspect)
-        lights, left_out = lights_of(scene.lights, models, view.world_from_camera)
+        lights, left_out = lights_of(
+            scene.lights,
+            models,
+            view.world_from_camera,
+            surrounded=scene.environment is not None,
+        )
+        sky = None if scene.environment is None else self._skies.sky(scene.environment, maker)
         cookies = cookies_of(lights, self._source(maker))
         background = self._background(scene.background, maker)
+        if background is None and scene.environment is not None and scene.environment.visible:
+            background = sky
         shadings = [drawable.shading for drawable in drawables]
         if isinstance(background, Shading):
             shadings.append(background)
@@ -115,10 +124,12 @@ class SceneBuilder:
             drawables=tuple(drawables),
             view=view,
             background=background,
+            sky=sky,
             lights=tuple(lights),
             cookies=cookies,
-            triangles=sum(len(mesh.elements) for mesh in kept),
+            triangles=sum(len(found.mesh.elements) for found in kept),
             texels=sum(texture.width * texture.height for texture in textures.values()),
+            report=frames_report(placed, kept),
             warnings=tuple(
                 dict.fromkeys(itertools.chain(*(item.model.warnings for item in models), left_out))
             ),
@@ -128,20 +139,7 @@ class SceneBuilder:
         """Free what exceeds the bounds; call it when nothing is being drawn."""
         self._textures.trim()
         self._meshes.trim()
-
-    def _kept(self, item: Placed, tangents: bool) -> VertexArray:
-        wanted = tangents_wanted(item.surface)
-        if tangents and wanted is None:
-            wanted = TangentsWanted(0, item.surface.tangents)
-
-        def make() -> tuple[VertexArray, int]:
-            mesh = item.mesh()
-            if wanted is not None:
-                mesh = with_tangents(mesh, wanted.uv_set)
-            uploaded = VertexArray.upload(mesh)
-            return uploaded, uploaded.size_bytes
-
-        return self._meshes.get((item.key, wanted), make)
+        self._skies.trim()
 
     def _shading(self, surface: SurfaceSpec, maker: TextureMaker) -> Shading:
         return shade(surface, self._source(maker))

@@ -9,6 +9,9 @@ from worker.rendering.calls import Call
 from worker.rendering.samplers import Sampling
 from worker.rendering.textures import TextureFormat
 
+SkyKind = Literal["none", "latlong", "cube"]
+"""The chunks of shaders/skies."""
+
 
 @dataclass(frozen=True, slots=True)
 class Parameter:
@@ -63,11 +66,13 @@ class LightLayout:
         shadows: Whether any casts shadows.
         cookies: The pictures before them.
         visibility: Whether what comes through is told as a layer, of surfaces that need none too.
+        sky: Which chunk reads the light from all around.
     """
 
     shadows: bool = False
     cookies: tuple[CookieLayout, ...] = ()
     visibility: bool = False
+    sky: SkyKind = "none"
 
     @property
     def samplers(self) -> tuple[str, ...]:

@@ -5,6 +5,7 @@ from worker.rendering.lookups import Picture
 from worker.rendering.programs import Program
 from worker.rendering.samplers import SamplerCache
 from worker.rendering.shading import Shading
+from worker.rendering.sky import Sky
 
 COOKIE_UNIT = 26
 """The first of four. Maps take the first 24 units, a surface's tables the next ones, the faces of
@@ -38,6 +39,10 @@ class TextureUnits:
             if not partly or name in program.uniforms:
                 program.set(name, unit)
                 self.put(unit, picture)
+
+    def bind_sky(self, program: Program, sky: Sky) -> None:
+        """Give the bound program an environment, in units that no picture takes."""
+        sky.bind(program, self._samplers)
 
     def put(self, unit: int, picture: Picture) -> None:
         """Let a unit hold a picture."""
