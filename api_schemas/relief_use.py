@@ -7,8 +7,8 @@ from api_schemas.base import Schema
 from api_schemas.coordinates.affine_uv import AffineUvSpec
 from api_schemas.coordinates.uv import UvSpec
 from api_schemas.families import SurfaceSpec
-from api_schemas.feasibility import Obstacle
 from api_schemas.model_mesh import ModelMesh
+from api_schemas.obstacle import Obstacle
 from api_schemas.relief import DISPLACED_TRIANGLES_MAX
 from api_schemas.requests import Request
 from api_schemas.scene import Node

@@ -15,12 +15,11 @@ from tests.examples import examples
 from tests.run_example import run_example
 from worker.images import image_io
 
-
 KEPT = {
     "metallic_roughness": "polished_to_rough",
-    "phong": "labelled_can",
-    "unlit": "layers",
-    "uv": "labelled_can",
+    "phong": "round_labels",
+    "unlit": "labelled_can",
+    "uv": "soda_can",
 }
 
 

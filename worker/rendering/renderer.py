@@ -4,7 +4,7 @@ import atexit
 import functools
 import time
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -22,13 +22,13 @@ from worker.rendering.bands import Band, OpenBand
 from worker.rendering.cryptomatte import Mattes, attributes, mattes_of
 from worker.rendering.gl_context import GLContext, check
 from worker.rendering.lighting import Lighting, lighting
-from worker.rendering.placing import ModelReader, TextureMaker
+from worker.rendering.placing import ModelReader
 from worker.rendering.pyrender_adapter import FloatRenderer
 from worker.rendering.pyrender_scene import FlatScene
 from worker.rendering.scene_builder import SceneBuilder
 from worker.rendering.shading import surface_fields
-from worker.rendering.sources import ModelReader, TextureMaker
 from worker.rendering.targets import TargetPair
+from worker.rendering.texture_maker import TextureMaker
 from worker.rendering.tiles import (
     LAYERED_SAMPLES_MAX,
     SAMPLES_MAX,
@@ -197,8 +197,10 @@ def warm(report: Report, textures: TextureMaker) -> None:
         textures: Makes the tables that surfaces bring themselves; they are kept.
     """
 
-    def maker(spec: TextureSpec, meaning: Meaning) -> Image:
-        return _grey(meaning) if spec == _GREY else textures(spec, meaning)
+    def picture(spec: TextureSpec, meaning: Meaning, proportion: tuple[int, int] = (1, 1)) -> Image:
+        return _grey(meaning) if spec == _GREY else textures.picture(spec, meaning, proportion)
+
+    maker = replace(textures, picture=picture)
 
     output = RenderOutput(size=[16, 16], supersampling=2)
     surfaces = list(_typical())
