@@ -61,7 +61,15 @@ def estimate(request: Request, facts: Mapping[str, AssetFacts]) -> Cost:
     width, height = request.output.size
     if isinstance(request, RenderRequest):
         return cost + _drawing(request, facts)
+    if request.output.slices:
+        return cost + volume_of(request.texture, width * height * request.output.slices)
     return cost + _textures(request, facts, width * height)
+
+
+def volume_of(texture: TextureSpec, voxels: int) -> Cost:
+    """Return the cost of making a solid texture, with all that are in it."""
+    found = (part for _, part in parts(texture) if isinstance(part, TextureSpec))
+    return sum((part.volume_cost(voxels) for part in found), Cost())
 
 
 def _textures(value: object, facts: Mapping[str, AssetFacts], pixels: int) -> Cost:

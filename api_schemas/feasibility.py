@@ -13,10 +13,11 @@ from api_schemas.map_feasibility import map_obstacles
 from api_schemas.maps import MAPS_MAX, Map
 from api_schemas.model_mesh import ModelMesh
 from api_schemas.obstacle import Obstacle
-from api_schemas.output import RenderOutput, TextureOutput
+from api_schemas.output import SIDE_MAX, RenderOutput, TextureOutput
 from api_schemas.requests import Request, TextureRequest
 from api_schemas.scene import NODES_MAX, Node
 from api_schemas.sky import SKY_MAPS
+from api_schemas.solid import flat_parts
 from api_schemas.textures.image import ImageSpec
 from api_schemas.transforms import MatrixPlacement
 from api_schemas.walk import deepest, escaped, parts
@@ -35,7 +36,7 @@ def obstacles(request: Request) -> list[Obstacle]:
         return found
     found += _refusals(request)
     if isinstance(request, TextureRequest):
-        return [*found, *_layer_names(request), *_layers(request.output)]
+        return [*found, *_slices(request), *_layer_names(request), *_layers(request.output)]
     found += _camera(request.scene.camera)
     found += _cookies(request.scene.lights or [])
     for index, light in enumerate(request.scene.lights or []):
@@ -92,6 +93,26 @@ def _refusals(request: Request) -> Iterator[Obstacle]:
             for refusal in part.refusals():
                 place = f"{pointer}/{refusal.field}" if refusal.field else pointer
                 yield Obstacle(refusal.code, place, refusal.message)
+
+
+def _slices(request: TextureRequest) -> Iterator[Obstacle]:
+    output = request.output
+    if output.slices is None:
+        return
+    for place, part in flat_parts(request.texture, "/texture"):
+        yield Obstacle("texture_not_solid", place, f"{part.technique} does not fill space")
+    if output.layers:
+        yield Obstacle("layer_unknown", "/output/layers", "a solid has no layers of its own")
+    if output.arrangement == "layers" and output.format != "exr":
+        yield Obstacle("layers_need_exr", "/output/arrangement", "a PNG holds no slices as layers")
+    if max(output.file_size) > SIDE_MAX:
+        width, height = output.file_size
+        yield Obstacle(
+            "atlas_too_large",
+            "/output/slices",
+            f"the slices beside each other take {width} x {height} pixels; "
+            f"at most {SIDE_MAX} along a side",
+        )
 
 
 def _layer_names(request: TextureRequest) -> Iterator[Obstacle]:

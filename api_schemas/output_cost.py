@@ -8,7 +8,7 @@ import math
 from collections.abc import Mapping
 
 from api_schemas.cost import Cost
-from api_schemas.output import SIDE_MAX, Layer, Output, RenderOutput
+from api_schemas.output import SIDE_MAX, Layer, Output, RenderOutput, TextureOutput
 
 SAMPLES_PER_TILE = 2048 * 2048
 SAMPLES_PER_LAYERED_TILE = 1024 * 1024
@@ -43,7 +43,9 @@ _BYTES_PER_LAYERED_SAMPLE = 240
 
 def writing(output: Output) -> Cost:
     """Return the cost of making a file of pixels that are there."""
-    pixels = output.size[0] * output.size[1]
+    pixels = math.prod(output.file_size)
+    if isinstance(output, TextureOutput) and output.slices:
+        pixels = max(pixels, math.prod(output.size) * output.slices)
     if output.format == "exr":
         seconds = _SECONDS_PER_EXR_PIXEL[output.exr_type]
     else:

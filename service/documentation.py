@@ -123,6 +123,8 @@ OBSTACLE_CODES: Final = (
     "coordinates_missing",
     "layers_need_exr",
     "layer_unknown",
+    "texture_not_solid",
+    "atlas_too_large",
     "over_budget",
 )
 

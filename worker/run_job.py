@@ -23,6 +23,7 @@ from worker.preview import Preview
 from worker.rendering import renderer
 from worker.rendering.packing import PICTURE
 from worker.rendering.texture_maker import TextureMaker
+from worker.slices import slices_in
 from worker.stages import Report, Stages, Timed
 from worker.uploaded_models import UploadedModels
 from worker.uploaded_pictures import UploadedPictures
@@ -60,7 +61,7 @@ def run(request: dict[str, Any], out: Path, report: Report) -> dict[str, Any]:
         WorkerError: The job cannot be done; its code says why.
     """
     body: Request = REQUESTS[request["kind"]].model_validate(request["body"])
-    width, height = body.output.size
+    width, height = body.output.file_size
     stages = Stages(report)
     timings, counts = stages.timings, dict[str, int]()
     found: Mapping[str, Any] = {}
@@ -86,6 +87,14 @@ def run(request: dict[str, Any], out: Path, report: Report) -> dict[str, Any]:
         timings["render_ms"] = round(timings["render_ms"] - encoding, 3)
         timings |= drawn.timings
         counts, found, warnings = drawn.counts, drawn.report, drawn.warnings
+    elif body.output.slices:
+        with stages.stage("synthesise", 0.02, 0.85) as progress:
+            across, up = body.output.size
+            size = (across, up, body.output.slices)
+            volume = synthesis.synthesize_volume(body.texture, size, report=progress)
+        with stages.stage("encode", 0.85, 0.98):
+            band = slices_in(volume, body.output)
+            media_type = result_file.write([band], body.output, request["digest"], out)
     else:
         with stages.stage("synthesise", 0.02, 0.85) as progress:
             made = synthesis.outcome(
