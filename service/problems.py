@@ -46,7 +46,6 @@ TABLE: Final[Mapping[str, tuple[int, str]]] = {
     "no_steady_state": (409, "The chemicals of a reaction are nowhere at rest"),
     "reaction_diverged": (409, "The chemicals of a reaction grew without end"),
     "environment_texels": (409, "Numbers of an environment are infinite or none"),
-    "layout_mismatch": (409, "The picture has not the shape of its layout"),
     "layout_without_direction": (409, "A layout needs coordinates that are a direction"),
     "layout_impossible": (409, "A layout cannot be so"),
     "formula_missing": (409, "A texture has no formula where one is asked for"),
