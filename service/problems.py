@@ -46,6 +46,7 @@ TABLE: Final[Mapping[str, tuple[int, str]]] = {
     "no_steady_state": (409, "The chemicals of a reaction are nowhere at rest"),
     "reaction_diverged": (409, "The chemicals of a reaction grew without end"),
     "layout_without_direction": (409, "A layout needs coordinates that are a direction"),
+    "coordinates_unsuited": (409, "These coordinates cannot be used there"),
     "coordinates_missing": (409, "A mesh lacks the texture coordinates that are needed"),
     "layers_need_exr": (409, "A PNG shows one layer only"),
     "layer_unknown": (409, "The technique has no such layer"),

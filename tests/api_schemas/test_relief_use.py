@@ -132,3 +132,30 @@ def test_looking_into_a_relief_costs_its_steps():
         return estimate(request(mesh=PLANE, surface=surface), {}).seconds
 
     assert cost(steps=128) > cost(steps=8) > cost(method="offset")
+
+
+@pytest.mark.parametrize(
+    ("coordinates", "suits"),
+    [
+        ({"technique": "position"}, True),
+        ({"technique": "normal", "frame": "object"}, True),
+        ({"technique": "normal"}, False),
+        ({"technique": "cylindrical", "frame": "view"}, False),
+        ({"technique": "reflection"}, False),
+        ({"technique": "triplanar"}, False),
+    ],
+)
+def test_vertices_have_but_some_coordinates(coordinates, suits):
+    body = request(mesh=PLANE, displacement={**NOISE, "coordinates": coordinates})
+
+    pointer = "/scene/nodes/0/displacement/coordinates"
+    assert found(body) == ([] if suits else [("coordinates_unsuited", pointer)])
+
+
+@pytest.mark.parametrize("name", ["height", "parallax"])
+def test_a_relief_is_read_at_one_place(name):
+    relief = {**NOISE, "coordinates": {"technique": "triplanar"}}
+    body = request(mesh=PLANE, surface={"technique": "phong", name: relief})
+
+    pointer = f"/scene/nodes/0/surface/{name}/coordinates"
+    assert found(body) == [("coordinates_unsuited", pointer)]

@@ -3,17 +3,17 @@
 import numpy as np
 
 from api_schemas.base import LENGTH_MAX
-from api_schemas.coordinates.uv import UvSpec
 from api_schemas.relief import DISPLACED_TRIANGLES_MAX, Displacement
 from worker.errors import RenderError
 from worker.geometry.displacement import displaced
 from worker.geometry.mesh import Mesh
 from worker.geometry.subdivision import subdivided
-from worker.geometry.topology import Floats
+from worker.geometry.topology import Floats, Indices
 from worker.images.image import Image
 from worker.images.pyramids import mip_chain
 from worker.images.sampling import sample
 from worker.rendering.lookups import texture_from_uv
+from worker.rendering.mesh_coordinates import coordinates_of
 from worker.rendering.samplers import Sampling
 
 
@@ -42,13 +42,11 @@ def with_relief(mesh: Mesh, spec: Displacement, levels: int, image: Image) -> Me
         image: The relief, data; what is no number in it is 0.
 
     Raises:
-        RenderError: It has no texture coordinates (`coordinates_missing`).
+        RenderError: Its vertices have no such coordinates (`coordinates_missing`,
+            `coordinates_unsuited`).
     """
     if mesh.kind != "triangles" or not mesh.triangles.size:
         return mesh
-    if not mesh.uv_sets:
-        message = "a displaced mesh needs texture coordinates"
-        raise RenderError(message, code="coordinates_missing")
     fine = subdivided(mesh, levels, spec.longest_edge)
     return displaced(fine, _heights(fine, spec, image))
 
@@ -65,15 +63,17 @@ def _heights(mesh: Mesh, spec: Displacement, image: Image) -> Floats:
 
 
 def _values(mesh: Mesh, spec: Displacement, pixels: np.ndarray) -> Floats:
-    u, v = spec.wrap
+    u, v = spec.wrap if spec.layout is None else spec.layout.joins
     sampling = Sampling.of((u, v), spec.filter)
     matrix = texture_from_uv(spec.transform, sampling.period[:2])
-    uv = mesh.uv(spec.coordinates.set if isinstance(spec.coordinates, UvSpec) else 0)
-    places = uv @ matrix[:2, :2].T + matrix[:2, 2]
+    coordinates = coordinates_of(spec.coordinates, spec.layout, mesh)
+    places = coordinates[:, :2] @ matrix[:2, :2].T + matrix[:2, 2]
     levels = mip_chain(pixels) if sampling.levels else [pixels]
     detail = None
     if sampling.levels:
-        reach = _reach(places * pixels.shape[1::-1], mesh.triangles.astype(np.int64))
+        size = np.array(pixels.shape[1::-1])
+        periods = np.array(sampling.period[:2]) * size
+        reach = _reach(places * size, mesh.triangles.astype(np.int64), periods)
         detail = np.log2(np.maximum(reach, 1.0))
     return sample(
         [level[..., 0] for level in levels],
@@ -85,11 +85,17 @@ def _values(mesh: Mesh, spec: Displacement, pixels: np.ndarray) -> Floats:
     )
 
 
-def _reach(texels: Floats, corners: np.ndarray) -> Floats:
-    """Return for each vertex the length of its longest edge in texels: finer detail has no room."""
+def _reach(texels: Floats, corners: Indices, periods: Floats) -> Floats:
+    """Return for each vertex the length of its longest edge in texels: finer detail has no room.
+
+    What repeats is as near as its nearest copy, so that no seam lies between two vertices.
+    """
     reach = np.zeros(len(texels))
+    copies = np.where(periods > 0, periods, 1.0)
     for one, other in ((0, 1), (1, 2), (2, 0)):
-        length = np.linalg.norm(texels[corners[:, one]] - texels[corners[:, other]], axis=1)
+        apart = texels[corners[:, one]] - texels[corners[:, other]]
+        apart -= np.where(periods > 0, copies * np.rint(apart / copies), 0.0)
+        length = np.linalg.norm(apart, axis=1)
         np.maximum.at(reach, corners[:, one], length)
         np.maximum.at(reach, corners[:, other], length)
     return reach
