@@ -29,6 +29,7 @@ from api_schemas.output_cost import samples_of, sampling, tiles_of, writing
 from api_schemas.relief import AnyMap, ParallaxMap
 from api_schemas.requests import RenderRequest, Request
 from api_schemas.scene import Node
+from api_schemas.sky import SKY_SECONDS_PER_SAMPLE, sky_textures
 from api_schemas.textures.image import ImageSpec
 from api_schemas.walk import outermost, parts
 
@@ -39,6 +40,7 @@ SECONDS_PER_MAP_SAMPLE = {
     "bilinear": 1e-8,
     "trilinear": 2e-8,
     "anisotropic": 1.5e-7,
+    "formula": 4e-7,
 }
 SECONDS_PER_PARALLAX_STEP = 2e-8
 SECONDS_TO_COMPILE_A_MAP = 0.12
@@ -111,6 +113,12 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
     background = _maps(scene.background)
     cost += textures.cost(background) + textures.cost(cookies)
     cost += Cost(samples * _seconds_per_sample(background))
+    if (environment := scene.environment) is not None:
+        lighting += SKY_SECONDS_PER_SAMPLE
+        cost += Cost(samples * SKY_SECONDS_PER_SAMPLE) + sky_textures(environment).cost()
+        size = math.prod(environment.texture.surface_size)
+        cost += _textures(environment.texture, facts, size)
+        cost += Cost(bytes=_texels_worn(environment.texture, facts) * BYTES_PER_KEPT_TEXEL)
     made = set()
     once = 0.0
     for node, placed, found in drawn:

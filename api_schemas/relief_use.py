@@ -8,12 +8,11 @@ from api_schemas.coordinates.affine_uv import AffineUvSpec
 from api_schemas.coordinates.cylindrical import CylindricalSpec
 from api_schemas.coordinates.normal import NormalSpec
 from api_schemas.coordinates.position import PositionSpec
-from api_schemas.coordinates.triplanar import TriplanarSpec
 from api_schemas.coordinates.uv import UvSpec
 from api_schemas.families import CoordinatesSpec, SurfaceSpec
-from api_schemas.feasibility import Obstacle
 from api_schemas.model_mesh import ModelMesh
-from api_schemas.relief import DISPLACED_TRIANGLES_MAX, Displacement, HeightMap, ParallaxMap
+from api_schemas.obstacle import Obstacle
+from api_schemas.relief import DISPLACED_TRIANGLES_MAX, Displacement
 from api_schemas.requests import Request
 from api_schemas.scene import Node
 from api_schemas.walk import parts
@@ -25,11 +24,6 @@ VertexCoordinates = UvSpec | AffineUvSpec | PositionSpec | NormalSpec | Cylindri
 def relief_misuses(request: Request, facts: Mapping[str, AssetFacts]) -> Iterator[Obstacle]:
     """Yield what stands in the way of reliefs; models without facts are passed over."""
     for pointer, part in parts(request):
-        if isinstance(part, HeightMap | ParallaxMap) and isinstance(
-            part.coordinates, TriplanarSpec
-        ):
-            message = "a relief is read at one place, not at three"
-            yield Obstacle("coordinates_unsuited", f"{pointer}/coordinates", message)
         if isinstance(part, Displacement) and not suits_vertices(part.coordinates):
             message = "vertices have no such coordinates; in their own frame they may have some"
             yield Obstacle("coordinates_unsuited", f"{pointer}/coordinates", message)

@@ -2,6 +2,7 @@ import pytest
 
 from api_schemas.assets import ASSET_FACTS
 from api_schemas.estimate import estimate
+from api_schemas.feasibility import obstacles
 from api_schemas.relief import DISPLACED_TRIANGLES_MAX, Displacement
 from api_schemas.relief_use import relief_misuses
 from api_schemas.requests import RenderRequest
@@ -158,4 +159,17 @@ def test_a_relief_is_read_at_one_place(name):
     body = request(mesh=PLANE, surface={"technique": "phong", name: relief})
 
     pointer = f"/scene/nodes/0/surface/{name}/coordinates"
-    assert found(body) == [("coordinates_unsuited", pointer)]
+    assert [(item.code, item.pointer) for item in obstacles(body)] == [
+        ("coordinates_unsuited", pointer)
+    ]
+
+
+@pytest.mark.parametrize("name", ["height", "parallax", "bump"])
+def test_a_relief_does_not_lie_on_the_faces_of_a_cube(name):
+    faces = {"coordinates": {"technique": "normal"}, "layout": {"technique": "cube"}}
+    body = request(mesh=PLANE, surface={"technique": "phong", name: {**NOISE, **faces}})
+
+    pointer = f"/scene/nodes/0/surface/{name}/layout"
+    assert [(item.code, item.pointer) for item in obstacles(body)] == [
+        ("layout_impossible", pointer)
+    ]

@@ -8,7 +8,7 @@ from typing import Protocol
 
 import numpy as np
 
-from api_schemas.families import Meaning, SurfaceSpec, TextureSpec
+from api_schemas.families import SurfaceSpec
 from api_schemas.model_mesh import ModelMesh
 from api_schemas.relief import Displacement
 from api_schemas.scene import Node
@@ -16,21 +16,14 @@ from api_schemas.surfaces.phong import PhongSpec
 from worker.geometry import primitives
 from worker.geometry.mesh import Mesh
 from worker.geometry.transforms import Matrix, parent_from_node
-from worker.images.image import Image
 from worker.models.model import Model, Part
 from worker.rendering.displacing import levels_of, with_relief
 from worker.rendering.model_changes import seen_parts
 from worker.rendering.shading import Selection
 from worker.rendering.staging import PlacedModel
+from worker.rendering.texture_maker import TextureMaker
 
 _MATT_GREY = PhongSpec(technique="phong")
-
-
-class TextureMaker(Protocol):
-    """Turns a texture of the language into a picture."""
-
-    def __call__(self, spec: TextureSpec, meaning: Meaning, /) -> Image:
-        """Return the picture, read as colour or as data."""
 
 
 class ModelReader(Protocol):

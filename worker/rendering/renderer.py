@@ -4,7 +4,7 @@ import atexit
 import functools
 import time
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Self, TypeAlias
 
 import numpy as np
@@ -22,12 +22,13 @@ from worker.models.model import Model
 from worker.rendering.gl_context import GLContext, check
 from worker.rendering.lighting import Lighting, lighting
 from worker.rendering.packing import PICTURE, PLACES
-from worker.rendering.placing import ModelReader, TextureMaker
+from worker.rendering.placing import ModelReader
 from worker.rendering.pyrender_adapter import FloatRenderer
 from worker.rendering.pyrender_scene import FlatScene
 from worker.rendering.scene_builder import SceneBuilder
 from worker.rendering.shading import surface_fields
 from worker.rendering.targets import Target, TargetPair
+from worker.rendering.texture_maker import TextureMaker
 from worker.rendering.tiles import (
     LAYERED_SAMPLES_MAX,
     SAMPLES_MAX,
@@ -223,8 +224,10 @@ def warm(report: Report, textures: TextureMaker) -> None:
         textures: Makes the tables that surfaces bring themselves; they are kept.
     """
 
-    def maker(spec: TextureSpec, meaning: Meaning) -> Image:
-        return _grey(meaning) if spec == _GREY else textures(spec, meaning)
+    def picture(spec: TextureSpec, meaning: Meaning, proportion: tuple[int, int] = (1, 1)) -> Image:
+        return _grey(meaning) if spec == _GREY else textures.picture(spec, meaning, proportion)
+
+    maker = replace(textures, picture=picture)
 
     output = RenderOutput(size=[16, 16], supersampling=2)
     surfaces = list(_typical())
