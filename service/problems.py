@@ -49,6 +49,7 @@ TABLE: Final[Mapping[str, tuple[int, str]]] = {
     "layout_without_direction": (409, "A layout needs coordinates that are a direction"),
     "layout_impossible": (409, "A layout cannot be so"),
     "formula_missing": (409, "A texture has no formula where one is asked for"),
+    "coordinates_unsuited": (409, "These coordinates cannot be used there"),
     "coordinates_missing": (409, "A mesh lacks the texture coordinates that are needed"),
     "mipmaps_need_exr": (409, "A PNG holds one size only"),
     "layers_need_exr": (409, "A PNG shows one layer only"),
