@@ -16,6 +16,7 @@ from api_schemas.bodies import (
     Body,
     body,
 )
+from api_schemas.by_example import FromExemplarSpec
 from api_schemas.camera import Camera, FramedCamera, ModelCamera, PosedCamera
 from api_schemas.cost import Cost
 from api_schemas.coverage import coverage, stand_in
@@ -24,6 +25,7 @@ from api_schemas.geometry import IDENTITY, Affine, Vector3, affine
 from api_schemas.lights import LIGHTS_MAX
 from api_schemas.maps import ColorMap, NormalMap, NumberMap
 from api_schemas.output_cost import samples_of, sampling, tiles_of, writing
+from api_schemas.own_size import FUNCTION_SIZE, Size, sizes_within
 from api_schemas.requests import RenderRequest, Request
 from api_schemas.scene import Node
 from api_schemas.textures.image import ImageSpec
@@ -55,16 +57,28 @@ def estimate(request: Request, facts: Mapping[str, AssetFacts]) -> Cost:
     width, height = request.output.size
     if isinstance(request, RenderRequest):
         return cost + _drawing(request, facts)
-    return cost + _textures(request, facts, width * height)
+    return cost + _texture(request.texture, facts, (width, height))
 
 
-def _textures(value: object, facts: Mapping[str, AssetFacts], pixels: int) -> Cost:
+def _texture(texture: TextureSpec, facts: Mapping[str, AssetFacts], size: Size) -> Cost:
+    """Return the cost of a texture and of all within it, made at a width and height."""
+
+    def measure(picture: ImageSpec) -> Size:
+        found = facts.get(picture.asset)
+        return (found.width, found.height) if isinstance(found, ImageFacts) else FUNCTION_SIZE
+
     cost = Cost()
-    for _, part in parts(value):
-        if isinstance(part, ImageSpec) and (texels := _texels(part, facts)):
-            cost += Cost(texels * SECONDS_PER_TEXEL, texels * BYTES_PER_TEXEL)
-        if isinstance(part, TextureSpec):
-            cost += part.cost(pixels)
+    if isinstance(texture, ImageSpec) and (texels := _texels(texture, facts)):
+        cost += Cost(texels * SECONDS_PER_TEXEL, texels * BYTES_PER_TEXEL)
+    sizes = sizes_within(texture, size, measure)
+    pixels = size[0] * size[1]
+    if isinstance(texture, FromExemplarSpec):
+        width, height = sizes["exemplar"]
+        cost += texture.cost_from(width * height, pixels)
+    else:
+        cost += texture.cost(pixels)
+    for name, inner in sizes.items():
+        cost += _texture(getattr(texture, name), facts, inner)
     return cost
 
 
@@ -169,7 +183,8 @@ class _WornTextures:
             picture = f"{type(item).__name__} {item.texture.model_dump_json()}"
             if picture not in self._made:
                 self._made.add(picture)
-                picture_cost = _textures(item.texture, self._facts, item.texture.surface_side**2)
+                side = item.texture.surface_side
+                picture_cost = _texture(item.texture, self._facts, (side, side))
                 self.making = max(self.making, picture_cost.bytes)
                 texels = _texels_worn(item.texture, self._facts)
                 cost += Cost(picture_cost.seconds, texels * BYTES_PER_KEPT_TEXEL)

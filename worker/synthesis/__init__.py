@@ -7,22 +7,24 @@ Every technique module has
     ) -> Image | Outcome
 
 with size = (width, height), `inputs` the pictures that the spec's fields hold, by field name,
-made at the same size, and `report` to be told the share that is done and the step, where there are
-steps. It is a pure function: no clock, no state, inputs are never modified. An Outcome is a picture
-with layers beside it, or with something to say of it.
+made at the same size unless their slots want another (api_schemas/own_size.py), and `report` to be
+told the share that is done and the step, where there are steps. It is a pure function: no clock, no
+state, inputs are never modified. An Outcome is a picture with layers beside it, or with something
+to say of it.
 A module with kernels also has `warm()`, which compiles them. A leading underscore marks pieces
 that techniques share.
 """
 
 from __future__ import annotations
 
+import functools
 import importlib
 import pkgutil
 from collections import Counter
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
-from api_schemas.families import Meaning, TextureSpec
 from api_schemas.language import FAMILIES
+from api_schemas.own_size import Size, sizes_within
 from api_schemas.textures.image import ImageSpec
 from api_schemas.walk import meaning_of
 from worker.stages import silent
@@ -32,11 +34,24 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
     from types import ModuleType
 
+    from api_schemas.families import Meaning, TextureSpec
     from worker.images.image import Image
     from worker.stages import Report
 
-    Key = tuple[str, Meaning]
     Load = Callable[[ImageSpec, Meaning], Image]
+    Key = tuple[str, Meaning, Size]
+
+
+class _Wanted(NamedTuple):
+    """A texture, how it is read, and at which size."""
+
+    spec: TextureSpec
+    meaning: Meaning
+    size: Size
+
+    @property
+    def key(self) -> Key:
+        return (self.spec.model_dump_json(), self.meaning, self.size)
 
 
 def synthesize(
@@ -66,7 +81,7 @@ def outcome(
 
     Args:
         spec: A texture of any technique.
-        size: Width and height in pixels, also of every nested picture.
+        size: Width and height in pixels, also of the nested pictures but where a slot wants others.
         load: Gives the picture of an uploaded asset in linear light, at its own size, for a slot
             that is read as colour or as data.
         meaning: Of the slot that the texture itself is in.
@@ -75,32 +90,38 @@ def outcome(
     Raises:
         WorkerError: Whatever `load` or a technique raises.
     """
-    uses = Counter(_keys(spec, meaning))
+
+    @functools.cache
+    def loaded(spec: ImageSpec, meaning: Meaning) -> Image:
+        return load(spec, meaning)
+
+    top = _Wanted(spec, meaning, size)
+    uses = Counter(wanted.key for wanted in _all(top, loaded))
     shared: dict[Key, Outcome] = {}
     done = 0
 
-    def make(spec: TextureSpec, meaning: Meaning) -> Outcome:
+    def make(wanted: _Wanted) -> Outcome:
         nonlocal done
-        key = _key(spec, meaning)
-        if key in shared:
-            return shared[key]
-        inputs = {name: make(*slot).image for name, slot in _slots(spec, meaning).items()}
+        if wanted.key in shared:
+            return shared[wanted.key]
+        spec = wanted.spec
+        inputs = {name: make(inner).image for name, inner in _within(wanted, loaded).items()}
         if isinstance(spec, ImageSpec):
-            inputs["asset"] = load(spec, meaning)
+            inputs["asset"] = loaded(spec, wanted.meaning)
         before = done
 
         def told(share: float, step: str) -> None:
             report((before + share) / len(uses), step)
 
         told(0.0, spec.technique)
-        made = _module(spec.technique).synthesize(spec, size, inputs, told)
+        made = _module(spec.technique).synthesize(spec, wanted.size, inputs, told)
         done += 1
         finished = made if isinstance(made, Outcome) else Outcome(made)
-        if uses[key] > 1:
-            shared[key] = finished
+        if uses[wanted.key] > 1:
+            shared[wanted.key] = finished
         return finished
 
-    return make(spec, meaning)
+    return make(top)
 
 
 def techniques() -> list[str]:
@@ -119,24 +140,24 @@ def warm(report: Report) -> None:
             module.warm()
 
 
-def _slots(spec: TextureSpec, meaning: Meaning) -> dict[str, tuple[TextureSpec, Meaning]]:
-    """Return the textures directly within a spec, each with the meaning of its slot."""
-    slots = {}
-    for name, field in type(spec).model_fields.items():
-        value = getattr(spec, name)
-        if isinstance(value, TextureSpec):
-            slots[name] = (value, meaning_of(field, meaning))
-    return slots
+def _within(wanted: _Wanted, load: Load) -> dict[str, _Wanted]:
+    """Return the textures directly within another, each as its slot wants it."""
+
+    def measure(picture: ImageSpec) -> Size:
+        loaded = load(picture, wanted.meaning)
+        return loaded.width, loaded.height
+
+    fields = type(wanted.spec).model_fields
+    return {
+        name: _Wanted(getattr(wanted.spec, name), meaning_of(fields[name], wanted.meaning), size)
+        for name, size in sizes_within(wanted.spec, wanted.size, measure).items()
+    }
 
 
-def _key(spec: TextureSpec, meaning: Meaning) -> Key:
-    return (spec.model_dump_json(), meaning)
-
-
-def _keys(spec: TextureSpec, meaning: Meaning) -> Iterator[Key]:
-    yield _key(spec, meaning)
-    for slot in _slots(spec, meaning).values():
-        yield from _keys(*slot)
+def _all(wanted: _Wanted, load: Load) -> Iterator[_Wanted]:
+    yield wanted
+    for inner in _within(wanted, load).values():
+        yield from _all(inner, load)
 
 
 def _module(technique: str) -> ModuleType:
