@@ -1,5 +1,7 @@
 """What the specs share that make new texture out of an exemplar's pixels."""
 
+import math
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from pydantic import Field
@@ -47,11 +49,15 @@ class FromExemplarSpec(TextureSpec):
 
     def cost(self, pixels: int) -> Cost:
         """Of an exemplar of functions; where its size is known, `cost_from` knows better."""
-        width, height = self.exemplar_size or FUNCTION_SIZE
-        return self.cost_from(width * height, pixels)
+        return self.cost_from({"exemplar": math.prod(self.exemplar_size or FUNCTION_SIZE)}, pixels)
 
-    def cost_from(self, exemplar_pixels: int, pixels: int) -> Cost:
-        """Estimate the technique for an exemplar of so many pixels and a picture of so many."""
+    def cost_from(self, within: Mapping[str, int], pixels: int) -> Cost:
+        """Estimate the technique alone.
+
+        Args:
+            within: How many pixels each nested texture has, by field name; at least the exemplar's.
+            pixels: How many the picture has that is asked for.
+        """
         raise NotImplementedError
 
 

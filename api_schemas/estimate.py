@@ -73,8 +73,8 @@ def _texture(texture: TextureSpec, facts: Mapping[str, AssetFacts], size: Size) 
     sizes = sizes_within(texture, size, measure)
     pixels = size[0] * size[1]
     if isinstance(texture, FromExemplarSpec):
-        width, height = sizes["exemplar"]
-        cost += texture.cost_from(width * height, pixels)
+        within = {name: inner[0] * inner[1] for name, inner in sizes.items()}
+        cost += texture.cost_from(within, pixels)
     else:
         cost += texture.cost(pixels)
     for name, inner in sizes.items():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 from pydantic import Field
@@ -62,10 +63,10 @@ class TextureOptimizationSpec(GrownSpec):
         "has alpha above 0.",
     )
 
-    def cost_from(self, exemplar_pixels: int, pixels: int) -> Cost:
+    def cost_from(self, within: Mapping[str, int], pixels: int) -> Cost:
         """All levels together are a third larger than the finest, whose patches are fewer."""
         grown = self.size[0] * self.size[1]
         return Cost(
-            seconds=grown * 8e-6 + exemplar_pixels * 2e-6 + pixels * 2e-8,
-            bytes=grown * 120.0 + exemplar_pixels * 200.0 + pixels * 16.0,
+            seconds=grown * 8e-6 + within["exemplar"] * 2e-6 + pixels * 2e-8,
+            bytes=grown * 120.0 + within["exemplar"] * 200.0 + pixels * 16.0,
         )

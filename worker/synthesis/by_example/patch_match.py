@@ -77,6 +77,7 @@ def improve(
     iteration: int,
     seed: int,
     radius: int,
+    tries: int = 1,
 ) -> None:
     """Improve a field whose costs are known, in place: no cost ever rises.
 
@@ -90,9 +91,10 @@ def improve(
         iteration: Decides the direction, the bands and the random numbers.
         seed: Of the random numbers.
         radius: How far away the random search begins.
+        tries: Random patches looked at before the radius is halved.
     """
     key = hashes(seed, iteration, 1)[0]
-    _improve(*patches, *field, active, iteration, key, radius, BAND_ROWS)
+    _improve(*patches, *field, active, iteration, key, radius, tries, BAND_ROWS)
 
 
 @kernel
@@ -164,6 +166,7 @@ def _improve(
     iteration: int,
     key: np.uint64,
     radius: int,
+    tries: int,
     band_rows: int,
 ) -> None:
     height, width = rows.shape
@@ -180,13 +183,12 @@ def _improve(
                 if not active[y, x]:
                     continue
                 best, best_v, best_u = costs[y, x], rows[y, x], columns[y, x]
-                for axis in range(2):
-                    near_y = y - step if axis == 1 else y
-                    near_x = x - step if axis == 0 else x
+                for down, across in ((0, step), (step, 0), (0, -step), (-step, 0)):
+                    near_y, near_x = y - down, x - across
                     if not (first <= near_y < last and 0 <= near_x < width):
                         continue
-                    v = rows[near_y, near_x] + (step * stride if axis == 1 else 0)
-                    u = columns[near_y, near_x] + (step * stride if axis == 0 else 0)
+                    v = rows[near_y, near_x] + down * stride
+                    u = columns[near_y, near_x] + across * stride
                     if not (0 <= v < bottom and 0 <= u < right) or (v == best_v and u == best_u):
                         continue
                     penalty = penalties[v, u]
@@ -200,7 +202,7 @@ def _improve(
                 reach = min(radius, max(bottom, right))
                 turn = 0
                 while reach >= 1:
-                    bits = scrambled(key, (y * width + x) * 32 + turn)
+                    bits = scrambled(key, (y * width + x) * 64 + turn)
                     low_v, low_u = max(0, best_v - reach), max(0, best_u - reach)
                     v = low_v + below(bits, min(bottom, best_v + reach + 1) - low_v)
                     u = low_u + below(bits >> np.uint64(32), min(right, best_u + reach + 1) - low_u)
@@ -212,6 +214,7 @@ def _improve(
                         )
                         if cost < best:
                             best, best_v, best_u = cost, v, u
-                    reach //= 2
                     turn += 1
+                    if turn % tries == 0:
+                        reach //= 2
                 costs[y, x], rows[y, x], columns[y, x] = best, best_v, best_u

@@ -41,7 +41,7 @@ def finished(
     image = gathered(place, inputs.get("picture", exemplar.image), kept)
     return Outcome(
         Image(resample(image.pixels, size), image.meaning),
-        {"source": Image(_nearest(source_layer(place, exemplar.shape), size), "data")},
+        {"source": Image(nearest(source_layer(place, exemplar.shape), size), "data")},
         {"quality": quality(place, exemplar)},
     )
 
@@ -65,7 +65,7 @@ def source_layer(place: Integers, shape: tuple[int, int]) -> NDArray[np.float32]
     return np.asarray(layer, np.float32)
 
 
-def _nearest(values: NDArray[np.float32], size: tuple[int, int]) -> NDArray[np.float32]:
+def nearest(values: NDArray[np.float32], size: tuple[int, int]) -> NDArray[np.float32]:
     """Bring coordinates to another (width, height): means of them would be other places."""
     height, width = values.shape[:2]
     rows = (2 * np.arange(size[1]) + 1) * height // (2 * size[1])
