@@ -43,6 +43,7 @@ TABLE: Final[Mapping[str, tuple[int, str]]] = {
     "too_many_nodes": (409, "Too many textures or scene nodes"),
     "too_many_maps": (409, "Too many maps on one surface"),
     "exemplar_unusable": (409, "There is nothing to copy"),
+    "layout_without_direction": (409, "A layout needs coordinates that are a direction"),
     "layers_need_exr": (409, "A PNG shows one layer only"),
     "layer_unknown": (409, "The technique has no such layer"),
     "over_budget": (409, "The request would take too much time or memory"),

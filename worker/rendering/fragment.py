@@ -1,8 +1,9 @@
 """The fragment shader of a surface: its chunk, and generated code that fills its parameters."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 
 from worker.rendering.chunks import Source, chunk, join
+from worker.rendering.relief_fragment import aside, relief_chunks, tilts
 from worker.rendering.shading_layout import LookupLayout, Parameter, ShadingLayout
 
 VERSION = "#version 410 core"
@@ -26,7 +27,9 @@ def background_sources(layout: ShadingLayout) -> tuple[Source, Source]:
         *_head(layout, ["lib/background.glsl"]),
         *_declarations(color),
         "void main() {",
-        *_texels(layout, lambda lookup: "coordinates_picture()"),
+        *_texels(
+            layout, range(len(layout.lookups)), lambda lookup, number: "coordinates_picture()"
+        ),
         f"    vec3 light = color_scale * {texel}.rgb + color_bias * {texel}.a;",
         f"    color = holdable(vec4(light, clamp({texel}.a, 0.0, 1.0)));",
         "}",
@@ -38,19 +41,18 @@ def background_sources(layout: ShadingLayout) -> tuple[Source, Source]:
 def _fragment(layout: ShadingLayout, layered: bool) -> str:
     parameters = [*layout.parameters, *([layout.opacity] if layout.opacity else [])]
     chunks = ["lib/fragment.glsl", f"surfaces/{layout.technique}.glsl"]
-    chunks += [f"coordinates/{lookup.coordinates}.glsl" for lookup in layout.lookups]
-    chunks += ["lib/normal_map.glsl"] if layout.normal is not None else []
+    calls = [(call, n) for n, lookup in enumerate(layout.lookups) for call in lookup.calls]
+    chunks += [call.chunk for call, _ in calls]
+    chunks += relief_chunks(layout.relief)
     chunks += ["lib/opacity.glsl"] if layout.opacity else []
     chunks += ["lib/layers.glsl"] if layered else []
     lines = _head(layout, chunks)
+    for call, number in calls:
+        lines += call.declarations(number)
     for parameter in parameters:
         lines += _declarations(parameter)
-    if layout.normal is not None:
-        lines += ["uniform vec2 normal_range;", "uniform vec4 normal_axes;"]
     lines += ["void main() {", "    SurfacePoint point = surface_point();"]
-    lines += _texels(layout, _coordinates)
-    if layout.normal is not None:
-        lines += _tilt(layout.normal)
+    lines += _relief(layout)
     lines.append("    Surface surface;")
     lines += [f"    surface.{p.name} = {_value(p)};" for p in layout.parameters]
     lines.append("    color = holdable(shade(point, surface));")
@@ -81,26 +83,70 @@ def _head(layout: ShadingLayout, chunks: Sequence[str]) -> list[str]:
     return lines
 
 
-def _texels(layout: ShadingLayout, coordinates: Callable[[LookupLayout], str]) -> list[str]:
-    """Write the readings of all pictures; `coordinates` gives the call that says where."""
+def _relief(layout: ShadingLayout) -> list[str]:
+    """Write the readings of all pictures, and how some of them move and tilt the point.
+
+    What tilts is read first, so that a bumped mirror reflects by its bumps.
+    """
+    place = _place if layout.relief.parallax is None else _moved_place
+
+    def read(number: int) -> list[str]:
+        return _texels(layout, [number], place)
+
+    early = layout.relief.tilting
+    late = [number for number in range(len(layout.lookups)) if number not in early]
     return [
-        f"    vec4 texel_{index} = sample_{lookup.filter}(picture_{lookup.picture}, "
-        f"look_up({coordinates(lookup)}, lookup_transform[{index}], "
-        f"lookup_period[{index}], lookup_size[{index}]));"
-        for index, lookup in enumerate(layout.lookups)
+        *aside(layout, lambda number: _place(layout.lookups[number], number)),
+        *tilts(layout.relief, read, lambda number: place(layout.lookups[number], number)),
+        *_texels(layout, late, place),
     ]
 
 
-def _coordinates(lookup: LookupLayout) -> str:
-    return f"coordinates_{lookup.coordinates}({', '.join(['point', *map(str, lookup.choices)])})"
+def _texels(
+    layout: ShadingLayout, numbers: Iterable[int], place: Callable[[LookupLayout, int], str]
+) -> list[str]:
+    """Write the readings with these numbers; `place` gives what says where."""
+    lines = []
+    for number in numbers:
+        where = place(layout.lookups[number], number)
+        if layout.lookups[number].returns == "Triplanar":
+            lines += _three_texels(layout.lookups[number], number, where)
+        else:
+            lines.append(
+                f"    vec4 texel_{number} = {_reading(layout.lookups[number], number, where)};"
+            )
+    return lines
 
 
-def _tilt(lookup: int) -> list[str]:
+def _three_texels(lookup: LookupLayout, number: int, where: str) -> list[str]:
+    """Write three readings, blended so that a constant picture is constant to the last bit."""
+    sides, texel = f"sides_{number}", f"texel_{number}"
+    x, y, z = (_reading(lookup, number, f"{sides}.along_{axis}") for axis in "xyz")
+    weights = f"{sides}.weights"
     return [
-        f"    vec3 tilt = normal_range.x * texel_{lookup}.xyz + normal_range.y;",
-        "    tilt.xy = vec2(dot(normal_axes.xy, tilt.xy), dot(normal_axes.zw, tilt.xy));",
-        "    point.normal = tilted_normal(point, vertex_normal, tilt);",
+        f"    Triplanar {sides} = {where};",
+        f"    vec4 {texel} = {x};",
+        f"    {texel} += {weights}.y * ({y} - {texel}) + {weights}.z * ({z} - {texel});",
     ]
+
+
+def _reading(lookup: LookupLayout, number: int, where: str) -> str:
+    return (
+        f"sample_{lookup.filter}(picture_{lookup.picture}, look_up({where}, "
+        f"lookup_transform[{number}], lookup_period[{number}], lookup_size[{number}]))"
+    )
+
+
+def _place(lookup: LookupLayout, number: int) -> str:
+    """Write where to look: coordinates are of the point, a layout is of coordinates."""
+    text = "point"
+    for call in lookup.calls:
+        text = call.text(text, number)
+    return f"flat_reach({text})" if lookup.returns == "Reach" else text
+
+
+def _moved_place(lookup: LookupLayout, number: int) -> str:
+    return f"moved({_place(lookup, number)}, aside)"
 
 
 def _declarations(parameter: Parameter) -> list[str]:

@@ -2,16 +2,18 @@
 
 import itertools
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Protocol
 
 import numpy as np
 
+from api_schemas.coordinates.uv import UvSpec
 from api_schemas.families import Meaning, SurfaceSpec, TextureSpec
 from api_schemas.lights import Light
 from api_schemas.maps import ColorMap
 from api_schemas.model_mesh import ModelMesh
+from api_schemas.relief import Displacement
 from api_schemas.scene import Node, Scene
 from api_schemas.surfaces.phong import PhongSpec
 from api_schemas.surfaces.unlit import UnlitSpec
@@ -21,11 +23,14 @@ from worker.geometry.tangents import with_tangents
 from worker.geometry.transforms import Matrix, parent_from_node
 from worker.images.image import Image
 from worker.images.pyramids import Cut, keep_coverage, mip_chain
+from worker.images.relief import Preparation, prepared
 from worker.models.model import Model, Part
 from worker.rendering.cache import ByteCache
+from worker.rendering.displacing import with_relief
 from worker.rendering.model_changes import seen_parts
 from worker.rendering.pyrender_scene import Background, Drawable, View
-from worker.rendering.shading import Shading, shade, tangent_uv_set
+from worker.rendering.relief_shading import TangentsWanted, tangents_wanted
+from worker.rendering.shading import Shading, shade
 from worker.rendering.staging import PlacedModel, lights_of, view_of
 from worker.rendering.textures import Texture
 from worker.rendering.vertex_arrays import VertexArray
@@ -110,11 +115,16 @@ class SceneBuilder:
             if isinstance(node.mesh, ModelMesh):
                 model = reader(node.mesh)
                 models.append(PlacedModel(model, matrix))
-                placed += _parts(node.mesh, node.surface, model, matrix)
+                found = list(_parts(node.mesh, node.surface, model, matrix))
             elif node.mesh is not None:
                 key = node.mesh.model_dump_json()
                 make = partial(primitives.build, node.mesh)
-                placed.append(_Placed(key, make, node.surface or _MATT_GREY, matrix))
+                found = [_Placed(key, make, node.surface or _MATT_GREY, matrix)]
+            else:
+                continue
+            if node.displacement is not None:
+                found = [_displaced(item, node.displacement, maker) for item in found]
+            placed += found
         kept = [self._kept(item, tangents) for item in placed]
         worn: dict[str, tuple[Shading, int]] = {}
         drawables = []
@@ -156,26 +166,33 @@ class SceneBuilder:
         self._meshes.trim()
 
     def _kept(self, item: _Placed, tangents: bool) -> VertexArray:
-        uv_set = tangent_uv_set(item.surface)
-        if tangents and uv_set is None:
-            uv_set = 0
+        wanted = tangents_wanted(item.surface)
+        if tangents and wanted is None:
+            wanted = TangentsWanted(0, item.surface.tangents)
 
         def make() -> tuple[VertexArray, int]:
             mesh = item.mesh()
-            if uv_set is not None:
-                mesh = with_tangents(mesh, uv_set)
+            if wanted is not None:
+                mesh = with_tangents(mesh, wanted.uv_set)
             uploaded = VertexArray.upload(mesh)
             return uploaded, uploaded.size_bytes
 
-        return self._meshes.get((item.key, uv_set), make)
+        return self._meshes.get((item.key, wanted), make)
 
     def _shading(self, surface: SurfaceSpec, maker: TextureMaker) -> Shading:
         def texture_of(
-            spec: TextureSpec, meaning: Meaning, *, levels: bool, cut: Cut | None = None
+            spec: TextureSpec,
+            meaning: Meaning,
+            *,
+            levels: bool,
+            cut: Cut | None = None,
+            preparation: Preparation | None = None,
         ) -> Texture:
             cut = cut if levels else None
-            key = (spec.model_dump_json(), meaning, levels, cut)
-            return self._textures.get(key, lambda: _upload(maker(spec, meaning), levels, cut))
+            key = (spec.model_dump_json(), meaning, levels, cut, preparation)
+            return self._textures.get(
+                key, lambda: _upload(prepared(maker(spec, meaning), preparation), levels, cut)
+            )
 
         return shade(surface, texture_of)
 
@@ -185,7 +202,8 @@ class SceneBuilder:
         if spec is None:
             return None
         if isinstance(spec, ColorMap):
-            surface = UnlitSpec(technique="unlit", color=spec)
+            where = {"coordinates": UvSpec(technique="uv"), "layout": None}
+            surface = UnlitSpec(technique="unlit", color=spec.model_copy(update=where))
             return self._shading(surface, maker)
         return tuple(min(value, LARGEST_LIGHT) for value in spec)
 
@@ -209,6 +227,13 @@ def _parts(
             surface=surface or worn or _MATT_GREY,
             world_from_object=matrix @ part.matrix,
         )
+
+
+def _displaced(item: _Placed, spec: Displacement, maker: TextureMaker) -> _Placed:
+    def mesh() -> Mesh:
+        return with_relief(item.mesh(), spec, maker(spec.texture, "data"))
+
+    return replace(item, key=f"{item.key} {spec.model_dump_json()}", mesh=mesh)
 
 
 def _mesh_of(part: Part) -> Mesh:

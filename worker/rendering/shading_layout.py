@@ -1,9 +1,11 @@
 """What decides a surface's program: everything the compiler must know, and nothing else."""
 
 from dataclasses import dataclass
+from typing import Literal
 
 from api_schemas.families import AlphaMode
 from api_schemas.maps import Filter
+from worker.rendering.calls import Call
 from worker.rendering.samplers import Sampling
 from worker.rendering.textures import TextureFormat
 
@@ -22,16 +24,19 @@ class LookupLayout:
     """One reading of a picture; parameters that share a lookup cost one.
 
     Attributes:
-        coordinates: The technique that says where.
-        choices: Its parameters, in the order of its fields; they are constants of the program.
+        calls: Which say where: that of the coordinates, then that of the layout, if there is one.
         filter: How texels become a pixel.
         picture: Which unit is read.
     """
 
-    coordinates: str
-    choices: tuple[int, ...]
+    calls: tuple[Call, ...]
     filter: Filter
     picture: int
+
+    @property
+    def returns(self) -> str:
+        """The GLSL type of what says where: a Footprint, a Reach or a Triplanar."""
+        return self.calls[-1].returns
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +48,33 @@ class PictureLayout:
 
 
 @dataclass(frozen=True, slots=True)
+class ReliefLayout:
+    """What moves and tilts a point before anything else is read.
+
+    Attributes:
+        normal: The lookup of a map of normals, if there is one.
+        normal_space: What these are relative to.
+        bump: The lookup of a bump map.
+        height: The lookup of a relief's heights and slopes.
+        parallax: The lookup of a relief that the eye looks into.
+        parallax_method: How it looks.
+    """
+
+    normal: int | None
+    normal_space: Literal["tangent", "object"]
+    bump: int | None
+    height: int | None
+    parallax: int | None
+    parallax_method: Literal["offset", "occlusion"]
+
+    @property
+    def tilting(self) -> tuple[int, ...]:
+        """The lookups that tilt the normal."""
+        found = (self.normal, self.bump, self.height)
+        return tuple(lookup for lookup in found if lookup is not None)
+
+
+@dataclass(frozen=True, slots=True)
 class ShadingLayout:
     """What decides a program; equal layouts share a program object.
 
@@ -51,7 +83,7 @@ class ShadingLayout:
         parameters: In the order of its struct.
         alpha_mode: Whether opacity is ignored, cuts holes, or lets through what is behind.
         opacity: How it is read, unless it is ignored.
-        normal: The lookup that tilts the normal, if there is a normal map.
+        relief: What moves and tilts the point.
         lookups: Readings of pictures.
         pictures: Texture units of maps, then of tables.
         tables: What the surface's own tables are called.
@@ -61,7 +93,7 @@ class ShadingLayout:
     parameters: tuple[Parameter, ...]
     alpha_mode: AlphaMode
     opacity: Parameter | None
-    normal: int | None
+    relief: ReliefLayout
     lookups: tuple[LookupLayout, ...]
     pictures: tuple[PictureLayout, ...]
     tables: tuple[str, ...]

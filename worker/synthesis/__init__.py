@@ -11,6 +11,18 @@ made at the same size unless their slots want another (api_schemas/own_size.py),
 told the share that is done and the step, where there are steps. It is a pure function: no clock, no
 state, inputs are never modified. An Outcome is a picture with layers beside it, or with something
 to say of it.
+One whose spec is `solid` but not `pointwise` also has
+
+    def synthesize_volume(
+        spec, size: tuple[int, int, int], inputs: Mapping[str, Volume], report: Report
+    ) -> Volume
+
+with size = (width, height, depth) and the volumes of its fields. One that is a formula has
+
+    def closed_form(spec, *, solid: bool) -> Mapping[str, Parameter] | None
+
+which gives the arguments of its GLSL chunk (`worker.closed_form`), or None for a spec of which
+there is no formula. What its fields hold is left out; the chunk takes it as `<field>_value`.
 A module with kernels also has `warm()`, which compiles them. A leading underscore marks pieces
 that techniques share.
 """
@@ -21,20 +33,23 @@ import functools
 import importlib
 import pkgutil
 from collections import Counter
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, cast
 
+from api_schemas.families import TextureSpec
 from api_schemas.language import FAMILIES
 from api_schemas.own_size import Size, sizes_within
 from api_schemas.textures.image import ImageSpec
 from api_schemas.walk import meaning_of
+from worker.closed_form import ClosedForm
+from worker.images.volume import Volume
 from worker.stages import silent
 from worker.synthesis.outcome import Outcome
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterator, Mapping
     from types import ModuleType
 
-    from api_schemas.families import Meaning, TextureSpec
+    from api_schemas.families import Meaning
     from worker.images.image import Image
     from worker.stages import Report
 
@@ -124,6 +139,70 @@ def outcome(
     return make(top)
 
 
+def synthesize_volume(
+    spec: TextureSpec,
+    size: tuple[int, int, int],
+    meaning: Meaning = "colour",
+    report: Report = silent,
+) -> Volume:
+    """Make the volume of a solid texture and of all textures nested in it.
+
+    Equal nested textures are made once.
+
+    Args:
+        spec: A texture of a solid technique, with none but solid ones in it.
+        size: Width, height and depth in voxels, also of every nested volume.
+        meaning: Of the slot that the texture itself is in.
+        report: Told the finished part, 0..1, and the technique or its step.
+    """
+    uses = Counter(_keys(spec, meaning))
+    shared: dict[tuple[str, Meaning], Volume] = {}
+    done = 0
+
+    def make(spec: TextureSpec, meaning: Meaning) -> Volume:
+        nonlocal done
+        key = _key(spec, meaning)
+        if key in shared:
+            return shared[key]
+        inputs = {name: make(*slot) for name, slot in _slots(spec, meaning).items()}
+        before = done
+
+        def told(share: float, step: str) -> None:
+            report((before + share) / len(uses), step)
+
+        told(0.0, spec.technique)
+        volume = _fill(spec, size, inputs, told)
+        done += 1
+        if uses[key] > 1:
+            shared[key] = volume
+        return volume
+
+    return make(spec, meaning)
+
+
+def closed_form(
+    spec: TextureSpec, *, solid: bool, meaning: Meaning = "colour"
+) -> ClosedForm | None:
+    """Return a texture, with all nested in it, as a formula; None where there is none.
+
+    Args:
+        spec: A texture of any technique.
+        solid: Whether it is asked for in space, else in the plane w = 0.
+        meaning: Of the slot that the texture itself is in.
+    """
+    module = _module(spec.technique)
+    parameters = module.closed_form(spec, solid=solid) if hasattr(module, "closed_form") else None
+    if parameters is None:
+        return None
+    inputs = {}
+    for name, (nested, slot) in _slots(spec, meaning).items():
+        found = closed_form(nested, solid=solid, meaning=slot)
+        if found is None:
+            return None
+        inputs[name] = found
+    return ClosedForm(spec.technique, parameters, inputs)
+
+
 def techniques() -> list[str]:
     """Return the names of the techniques in this folder, in alphabetical order."""
     names = (module.name for module in pkgutil.iter_modules(__path__))
@@ -152,6 +231,39 @@ def _within(wanted: _Wanted, load: Load) -> dict[str, _Wanted]:
         name: _Wanted(getattr(wanted.spec, name), meaning_of(fields[name], wanted.meaning), size)
         for name, size in sizes_within(wanted.spec, wanted.size, measure).items()
     }
+
+
+def _fill(
+    spec: TextureSpec, size: tuple[int, int, int], inputs: Mapping[str, Volume], report: Report
+) -> Volume:
+    """Make one volume; what is pointwise sees all slices below each other as one picture."""
+    module = _module(spec.technique)
+    if not spec.pointwise:
+        return cast("Volume", module.synthesize_volume(spec, size, inputs, report))
+    width, height, depth = size
+    stacked = {name: volume.stacked() for name, volume in inputs.items()}
+    made = module.synthesize(spec, (width, height * depth), stacked, report)
+    return Volume.unstacked(made.image if isinstance(made, Outcome) else made, depth)
+
+
+def _slots(spec: TextureSpec, meaning: Meaning) -> dict[str, tuple[TextureSpec, Meaning]]:
+    """Return the textures directly within a spec, each with the meaning of its slot."""
+    slots = {}
+    for name, field in type(spec).model_fields.items():
+        value = getattr(spec, name)
+        if isinstance(value, TextureSpec):
+            slots[name] = (value, meaning_of(field, meaning))
+    return slots
+
+
+def _key(spec: TextureSpec, meaning: Meaning) -> tuple[str, Meaning]:
+    return (spec.model_dump_json(), meaning)
+
+
+def _keys(spec: TextureSpec, meaning: Meaning) -> Iterator[tuple[str, Meaning]]:
+    yield _key(spec, meaning)
+    for slot in _slots(spec, meaning).values():
+        yield from _keys(*slot)
 
 
 def _all(wanted: _Wanted, load: Load) -> Iterator[_Wanted]:

@@ -1,7 +1,8 @@
 """Squares of two colours (Hughes et al., 2013, section 20.7), averaged exactly over each pixel.
 
 With S = +1 on [0, 1) and -1 on [1, 2), repeated, the colour at (x, y) in squares is the first one
-with share (1 + S(x) S(y)) / 2 and the second one for the rest. The mean of S over [a, b] is
+with share (1 + S(x) S(y)) / 2 and the second one for the rest; in a solid of cubes S(z) is a third
+factor. The mean of S over [a, b] is
 (T(b) - T(a)) / (b - a) with its integral, the triangle wave T(x) = 1 - |1 - (x mod 2)|.
 """
 
@@ -12,13 +13,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from worker.images.image import Image
+from worker.images.volume import Volume
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from numpy.typing import NDArray
 
     from api_schemas.textures.checkerboard import CheckerboardSpec
+    from worker.closed_form import Parameter
     from worker.stages import Report
 
 _BAND_ROWS = 64
@@ -29,16 +32,72 @@ def synthesize(
 ) -> Image:
     """Average the tile over each pixel of (width, height); the lower left square has colors[0]."""
     width, height = size
+    down = _mean_signs(spec.cells[1], height)[::-1]
+    return Image(_blended(spec, _mean_signs(spec.cells[0], width), down), spec.meaning)
+
+
+def synthesize_volume(
+    spec: CheckerboardSpec, size: tuple[int, int, int], inputs: Mapping[str, Volume], report: Report
+) -> Volume:
+    """Average the solid tile over each voxel of (width, height, depth)."""
+    width, height, depth = size
+    down = _mean_signs(spec.cells[1], height)[::-1]
+    away = _mean_signs(_cells(spec)[2], depth)
+    rows = _blended(spec, _mean_signs(spec.cells[0], width), np.outer(away, down).ravel())
+    return Volume(rows.reshape(depth, height, width, -1), spec.meaning)
+
+
+def color_at(
+    spec: CheckerboardSpec, places: NDArray[np.float64], reach: Sequence[float]
+) -> NDArray[np.float64]:
+    """Return colours (n, 3) averaged over boxes around points of the plane or of space.
+
+    Args:
+        spec: The colours.
+        places: (n, 2) or (n, 3), in tiles.
+        reach: Lengths of a box along each axis, in tiles; without one there is no average.
+    """
+    signs = np.ones(len(places))
+    for place, cells, length in zip(places.T, _cells(spec), reach, strict=False):
+        x, half = (place - np.floor(place)) * cells, 0.5 * cells * length
+        if half:
+            signs *= (_triangle(x + half) - _triangle(x - half)) / (2 * half)
+        else:
+            signs *= 1 - 2 * (np.floor(x) % 2)
+    share = (0.5 + 0.5 * signs)[:, np.newaxis]
     first, second = np.array(spec.colors, np.float32).astype(np.float64)
-    across = _mean_signs(spec.cells[0], width)
-    signs, row_kinds = np.unique(_mean_signs(spec.cells[1], height)[::-1], return_inverse=True)
-    rows = np.empty((len(signs), width, len(first)), np.float32)
+    colors: NDArray[np.float64] = share * first + (1 - share) * second
+    return colors
+
+
+def closed_form(spec: CheckerboardSpec, *, solid: bool) -> Mapping[str, Parameter]:
+    """Return cells along each axis, none along w in a plane, and the colours."""
+    cells = np.array(_cells(spec), np.float32) * (1, 1, solid)
+    first, second = np.array(spec.colors, np.float32)
+    return {"cells": cells, "first": first, "second": second}
+
+
+def _cells(spec: CheckerboardSpec) -> tuple[int, int, int]:
+    u, v, w = (spec.cells * 2)[:3]
+    return u, v, w
+
+
+def _triangle(x: NDArray[np.float64]) -> NDArray[np.float64]:
+    return 1 - abs(1 - x % 2)
+
+
+def _blended(
+    spec: CheckerboardSpec, across: NDArray[np.float64], down: NDArray[np.float64]
+) -> NDArray[np.float32]:
+    first, second = np.array(spec.colors, np.float32).astype(np.float64)
+    signs, row_kinds = np.unique(down, return_inverse=True)
+    rows = np.empty((len(signs), len(across), len(first)), np.float32)
     # In float64, so that pure colours and equal colours come out exactly; banded to stay small
     for start in range(0, len(signs), _BAND_ROWS):
         products = np.multiply.outer(signs[start : start + _BAND_ROWS], across)
         share = (0.5 + 0.5 * products)[..., np.newaxis]
         rows[start : start + _BAND_ROWS] = share * first + (1 - share) * second
-    return Image(rows[row_kinds], spec.meaning)
+    return rows[row_kinds]
 
 
 def _mean_signs(cells: int, pixels: int) -> NDArray[np.float64]:

@@ -1,4 +1,5 @@
 #include "lib/fragment.glsl"
+#include "lib/frames.glsl"
 
 // What is known of a thing beside its light; worker/rendering/packing.py has the same table.
 layout(location = 1) out vec4 layer_albedo;            // premultiplied; a = coverage
@@ -8,11 +9,9 @@ layout(location = 4) out vec4 layer_position;          // a = material id
 layout(location = 5) out vec4 layer_tangent;
 layout(location = 6) out vec4 layer_uv;
 
-uniform vec3 eye_position;  // in the world
-uniform vec3 view_axis;     // where the eye looks
+uniform vec3 view_axis;  // where the eye looks
 uniform int object_id;
 uniform int material_id;
-uniform mat3 normal_from_object;
 uniform samplerBuffer face_normals;  // of each triangle, outward, in the object's frame
 uniform bool has_faces;              // lines and points have none
 
