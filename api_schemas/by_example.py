@@ -10,7 +10,7 @@ from api_schemas.base import WHOLE, Seed
 from api_schemas.cost import Cost
 from api_schemas.families import TextureSpec
 from api_schemas.maps import DATA
-from api_schemas.own_size import FUNCTION_SIZE, LIKE_EXEMPLAR, OWN_SIZE
+from api_schemas.own_size import FUNCTION_SIZE, LIKE_EXEMPLAR, LIKE_RESULT, OWN_SIZE
 
 if TYPE_CHECKING:
     from api_schemas.language import Texture
@@ -70,4 +70,36 @@ class GrownSpec(FromExemplarSpec):
         default=[256, 256],
         description="Width and height that are grown, in pixels of the exemplar; the output's "
         "should be the same, else the picture is resampled.",
+    )
+
+
+class KeepingSpec(GrownSpec):
+    """Grows around parts that are finished already."""
+
+    keep: Annotated["Texture | None", LIKE_RESULT] = Field(
+        default=None,
+        description="A picture parts of which are finished: they stay as they are, and the texture "
+        "grows around them.",
+    )
+    keep_mask: Annotated["Texture | None", LIKE_RESULT, DATA] = Field(
+        default=None,
+        description="Where its first channel is at least 0.5, keep stays; by default where keep "
+        "has alpha above 0.",
+    )
+
+
+class GuidedSpec(KeepingSpec):
+    """Grows under guidance: a picture to follow."""
+
+    guide: Annotated["Texture | None", LIKE_RESULT] = Field(
+        default=None,
+        description="A picture the result follows: where it is like a place of exemplar_guide, "
+        "that place of the exemplar is preferred.",
+    )
+    exemplar_guide: Annotated["Texture | None", LIKE_EXEMPLAR] = Field(
+        default=None, description="What the guide is compared with; by default the exemplar itself."
+    )
+    guide_weight: Annotated[float, Field(ge=0, le=1)] = Field(
+        default=0.5,
+        description="How much the guide counts: 0 not at all, 0.5 as much as the texture, 1 alone.",
     )

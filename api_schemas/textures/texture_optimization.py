@@ -3,20 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from api_schemas.by_example import GrownSpec
+from api_schemas.by_example import GuidedSpec
 from api_schemas.cost import Cost
-from api_schemas.maps import DATA
-from api_schemas.own_size import LIKE_EXEMPLAR, LIKE_RESULT
-
-if TYPE_CHECKING:
-    from api_schemas.language import Texture
 
 
-class TextureOptimizationSpec(GrownSpec):
+class TextureOptimizationSpec(GuidedSpec):
     """Grows more of any texture: the one to begin with, quick, tileable, and seldom the worst."""
 
     source: ClassVar[str] = (
@@ -39,28 +34,6 @@ class TextureOptimizationSpec(GrownSpec):
         default=1.0,
         description="How much the distance to edges counts beside colour: it keeps stones and "
         "bricks whole.",
-    )
-    guide: Annotated[Texture | None, LIKE_RESULT] = Field(
-        default=None,
-        description="A picture the result follows: where it is like a place of exemplar_guide, "
-        "that place of the exemplar is preferred.",
-    )
-    exemplar_guide: Annotated[Texture | None, LIKE_EXEMPLAR] = Field(
-        default=None, description="What the guide is compared with; by default the exemplar itself."
-    )
-    guide_weight: Annotated[float, Field(ge=0, le=1)] = Field(
-        default=0.5,
-        description="How much the guide counts: 0 not at all, 0.5 as much as the texture, 1 alone.",
-    )
-    keep: Annotated[Texture | None, LIKE_RESULT] = Field(
-        default=None,
-        description="A picture parts of which are finished: they stay as they are, and the texture "
-        "grows around them.",
-    )
-    keep_mask: Annotated[Texture | None, LIKE_RESULT, DATA] = Field(
-        default=None,
-        description="Where its first channel is at least 0.5, keep stays; by default where keep "
-        "has alpha above 0.",
     )
 
     def cost_from(self, within: Mapping[str, int], pixels: int) -> Cost:

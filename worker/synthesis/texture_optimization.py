@@ -11,16 +11,11 @@ from api_schemas.textures.texture_optimization import TextureOptimizationSpec
 from worker.images.image import Image
 from worker.stages import silent
 from worker.synthesis.by_example.exemplar import Exemplar
-from worker.synthesis.by_example.features import (
-    FeatureSpace,
-    edge_distance,
-    usable,
-    weighed,
-    with_channels,
-)
+from worker.synthesis.by_example.features import edge_distance, weighed
 from worker.synthesis.by_example.optimisation import optimise
 from worker.synthesis.by_example.result import finished
 from worker.synthesis.by_example.task import Task
+from worker.synthesis.by_example.wishes import Wishes
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -46,23 +41,20 @@ def synthesize(
     """
     exemplar = Exemplar.of(inputs)
     width, height = spec.size
-    keep = inputs.get("keep")
-    share = 1.0 if "guide" not in inputs else min(1.0, 2 * (1 - spec.guide_weight))
+    wishes = Wishes.of(spec, exemplar, inputs)
     task = Task(
-        source=_compared(exemplar.features, spec.outlines, share),
+        source=_compared(exemplar.features, spec.outlines, wishes.share),
         usable=exemplar.usable,
         size=(height, width),
         tileable=spec.tileable,
         seed=spec.seed,
-        guides=_guides(spec, exemplar, inputs),
+        guides=wishes.guides,
         variety=spec.variety,
     )
-    if keep is not None:
-        task = task.keeping(
-            _compared(exemplar.matching(keep), spec.outlines, share),
-            _kept(keep, inputs.get("keep_mask")),
-        )
-    return finished(optimise(task, report), exemplar, inputs, size, keep)
+    if wishes.keep is not None:
+        kept = _compared(exemplar.matching(wishes.keep), spec.outlines, wishes.share)
+        task = task.keeping(kept, wishes.fixed)
+    return finished(optimise(task, report), exemplar, inputs, size, wishes.keep)
 
 
 def warm() -> None:
@@ -80,20 +72,3 @@ def _compared(features: Bytes, outlines: float, share: float) -> Bytes:
     if outlines > 0:
         features = np.concatenate([features, weighed(edge_distance(features), outlines)], axis=-1)
     return weighed(features, share)
-
-
-def _guides(
-    spec: TextureOptimizationSpec, exemplar: Exemplar, inputs: Mapping[str, Image]
-) -> tuple[Bytes, Bytes] | None:
-    if "guide" not in inputs:
-        return None
-    ours = inputs.get("exemplar_guide", exemplar.image)
-    space = FeatureSpace.of(ours)
-    of_exemplar = space.encode(ours)
-    of_result = with_channels(space.encode(inputs["guide"]), of_exemplar.shape[2])
-    share = min(1.0, 2 * spec.guide_weight)
-    return weighed(of_exemplar, share), weighed(of_result, share)
-
-
-def _kept(keep: Image, mask: Image | None) -> NDArray[np.bool_]:
-    return usable(keep) if mask is None else np.asarray(mask.pixels[..., 0] >= 0.5)

@@ -2,34 +2,14 @@
 
 import numpy as np
 import pytest
-from pydantic import TypeAdapter
 
-from api_schemas.language import Texture
+from tests.growing import colours, noise, sources
+from tests.growing import grow as grow_by
 from worker.errors import RenderError
-from worker.images.image import Image
-from worker.synthesis import outcome
-
-UPLOAD = {"technique": "image", "asset": "0" * 64}
-OTHER = {"technique": "image", "asset": "1" * 64}
 
 
-def grow(exemplar, size, *, others=None, meaning="colour", **fields):
-    """Make texture_optimization of pixels (height, width, channels), at (width, height)."""
-    pictures = {"0" * 64: exemplar} | (others or {})
-
-    def load(spec, meaning):
-        return Image(np.ascontiguousarray(pictures[spec.asset], np.float32), meaning)
-
-    body = {"technique": "texture_optimization", "exemplar": UPLOAD, "size": list(size), **fields}
-    return outcome(TypeAdapter(Texture).validate_python(body), size, load, meaning)
-
-
-def noise(height, width, channels=3, seed=0):
-    return np.random.default_rng(seed).random((height, width, channels), np.float32)
-
-
-def colours(pixels):
-    return set(map(bytes, np.ascontiguousarray(pixels).reshape(-1, pixels.shape[-1])))
+def grow(exemplar, size, **fields):
+    return grow_by("texture_optimization", exemplar, size, **fields)
 
 
 @pytest.mark.parametrize("size", [(40, 24), (33, 17), (1, 1), (3, 64)])
@@ -40,10 +20,7 @@ def test_every_pixel_is_one_of_the_exemplars_at_the_place_it_says(size, shape):
     made = grow(exemplar, size, seed=3)
 
     assert made.image.pixels.shape == (size[1], size[0], 3)
-    u, v = np.moveaxis(made.layers["source"].pixels, -1, 0)
-    columns = np.floor(u * shape[1]).astype(int)
-    rows = np.floor((1 - v) * shape[0]).astype(int)
-    assert made.image.pixels.tobytes() == exemplar[rows, columns].tobytes()
+    assert made.image.pixels.tobytes() == exemplar[sources(made, exemplar)].tobytes()
 
 
 def test_light_beyond_white_and_alpha_are_copied_as_they_are():
@@ -66,7 +43,7 @@ def test_a_mask_keeps_pixels_from_being_copied():
     exemplar, mask = noise(24, 24), np.ones((24, 24, 1), np.float32)
     mask[5:9, 3:] = 0
 
-    made = grow(exemplar, (40, 40), others={"1" * 64: mask}, exemplar_mask=OTHER)
+    made = grow(exemplar, (40, 40), exemplar_mask=mask)
 
     assert not colours(made.image.pixels) & colours(exemplar[5:9, 3:])
 
@@ -89,10 +66,7 @@ def test_what_is_kept_stays_bit_for_bit():
     mask = np.zeros((48, 40, 1), np.float32)
     mask[10:20, 5:30] = 1
 
-    made = grow(
-        exemplar, (40, 48), others={"1" * 64: keep, "2" * 64: mask},
-        keep=OTHER, keep_mask={"technique": "image", "asset": "2" * 64},
-    )  # fmt: skip
+    made = grow(exemplar, (40, 48), keep=keep, keep_mask=mask)
 
     stays = mask[..., 0] > 0
     assert made.image.pixels[stays].tobytes() == keep[stays].tobytes()
@@ -102,7 +76,7 @@ def test_what_is_kept_stays_bit_for_bit():
 def test_keeping_everything_gives_it_back():
     keep = noise(30, 40, seed=2)
 
-    made = grow(noise(16, 16), (40, 30), others={"1" * 64: keep}, keep=OTHER)
+    made = grow(noise(16, 16), (40, 30), keep=keep)
 
     assert made.image.pixels.tobytes() == keep.tobytes()
 
@@ -110,12 +84,9 @@ def test_keeping_everything_gives_it_back():
 def test_another_picture_is_taken_from_the_same_places():
     exemplar, normals = noise(24, 24), noise(24, 24, seed=5)
     colour = grow(exemplar, (40, 40), seed=4)
-    other = grow(exemplar, (40, 40), seed=4, others={"1" * 64: normals}, picture=OTHER)
+    other = grow(exemplar, (40, 40), seed=4, picture=normals)
 
-    u, v = np.moveaxis(colour.layers["source"].pixels, -1, 0)
-    rows, columns = np.floor((1 - v) * 24).astype(int), np.floor(u * 24).astype(int)
-
-    assert other.image.pixels.tobytes() == normals[rows, columns].tobytes()
+    assert other.image.pixels.tobytes() == normals[sources(colour, exemplar)].tobytes()
 
 
 def test_a_guide_decides_where_what_goes():
@@ -125,7 +96,7 @@ def test_a_guide_decides_where_what_goes():
     guide = np.zeros((48, 48, 1), np.float32)
     guide[:, :24] = 1
 
-    pixels = grow(exemplar, (48, 48), others={"1" * 64: guide}, guide=OTHER).image.pixels
+    pixels = grow(exemplar, (48, 48), guide=guide).image.pixels
 
     bright = pixels.mean(axis=-1) > 0.5
     overlap = (bright & (guide[..., 0] > 0)).sum() / (bright | (guide[..., 0] > 0)).sum()

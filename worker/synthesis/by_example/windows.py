@@ -30,3 +30,12 @@ def fitting_side(usable: Mask, size: tuple[int, int], side: int) -> int:
     while side > 1 and not whole_windows(usable, (side, side)).any():
         side -= 1
     return side
+
+
+def middles(mask: Mask, size: tuple[int, int]) -> Mask:
+    """Return which pixels, (height, width) of the mask, are the middle of a window of True."""
+    found = np.zeros(mask.shape, bool)
+    whole = whole_windows(mask, size)
+    top, left = size[0] // 2, size[1] // 2
+    found[top : top + whole.shape[0], left : left + whole.shape[1]] = whole
+    return found
