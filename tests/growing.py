@@ -3,7 +3,7 @@
 import numpy as np
 from pydantic import TypeAdapter
 
-from api_schemas.language import Texture
+from api_schemas.language import FAMILIES, Texture
 from worker.images.image import Image
 from worker.synthesis import outcome
 
@@ -26,7 +26,7 @@ def grow(technique, exemplar, size, *, meaning="colour", **fields):
         if isinstance(value, np.ndarray):
             body[name] = upload(len(pictures))
             pictures.append(value)
-    if technique not in ("nearest_neighbour_field", "hole_filling"):
+    if FAMILIES["textures"][technique].sized:
         body["size"] = list(size)
 
     def load(spec, meaning):
