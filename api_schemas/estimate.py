@@ -15,21 +15,24 @@ from api_schemas.bodies import (
     SECONDS_PER_TEXEL,
     Body,
     body,
+    displaced,
 )
 from api_schemas.by_example import FromExemplarSpec
 from api_schemas.camera import Camera, FramedCamera, ModelCamera, PosedCamera
+from api_schemas.cookies import Cookie
 from api_schemas.cost import Cost
 from api_schemas.coverage import coverage, stand_in
 from api_schemas.families import SurfaceSpec, TextureSpec
 from api_schemas.geometry import IDENTITY, Affine, Vector3, affine
+from api_schemas.light_cost import cookies_of, seconds_of_shadows, shadow_maps
 from api_schemas.lights import LIGHTS_MAX
 from api_schemas.output_cost import samples_of, sampling, tiles_of, writing
-from api_schemas.own_size import FUNCTION_SIZE, Size, sizes_within
-from api_schemas.relief import AnyMap
+from api_schemas.own_size import FUNCTION_SIZE, Size, size_within
+from api_schemas.relief import AnyMap, ParallaxMap
 from api_schemas.requests import RenderRequest, Request
 from api_schemas.scene import Node
 from api_schemas.textures.image import ImageSpec
-from api_schemas.walk import parts
+from api_schemas.walk import BRANCHES, outermost, parts
 
 SECONDS_PER_SHADED_SAMPLE = 6e-8
 SECONDS_PER_LIGHT_SAMPLE = 1e-8
@@ -39,6 +42,7 @@ SECONDS_PER_MAP_SAMPLE = {
     "trilinear": 2e-8,
     "anisotropic": 1.5e-7,
 }
+SECONDS_PER_PARALLAX_STEP = 2e-8
 SECONDS_TO_COMPILE_A_MAP = 0.12
 SECONDS_PER_DRAWN_TRIANGLE = 5e-8
 SECONDS_PER_DRAW = 2e-4
@@ -57,35 +61,36 @@ def estimate(request: Request, facts: Mapping[str, AssetFacts]) -> Cost:
     width, height = request.output.size
     if isinstance(request, RenderRequest):
         return cost + _drawing(request, facts)
-    return cost + _texture(request.texture, facts, (width, height))
+    return cost + _textures(request, facts, (width, height))
 
 
-def _texture(texture: TextureSpec, facts: Mapping[str, AssetFacts], size: Size) -> Cost:
-    """Return the cost of a texture and of all within it, made at a width and height."""
-
+def _textures(value: object, facts: Mapping[str, AssetFacts], size: Size) -> Cost:
     def measure(picture: ImageSpec) -> Size:
         found = facts.get(picture.asset)
         return (found.width, found.height) if isinstance(found, ImageFacts) else FUNCTION_SIZE
 
     cost = Cost()
-    if isinstance(texture, ImageSpec) and (texels := _texels(texture, facts)):
-        cost += Cost(texels * SECONDS_PER_TEXEL, texels * BYTES_PER_TEXEL)
-    sizes = sizes_within(texture, size, measure)
-    pixels = size[0] * size[1]
-    if isinstance(texture, FromExemplarSpec):
-        within = {name: inner[0] * inner[1] for name, inner in sizes.items()}
-        cost += texture.cost_from(within, pixels)
-    else:
-        cost += texture.cost(pixels)
-    for name, inner in sizes.items():
-        cost += _texture(getattr(texture, name), facts, inner)
+    for texture in outermost(value, TextureSpec):
+        if isinstance(texture, ImageSpec) and (texels := _texels(texture, facts)):
+            cost += Cost(texels * SECONDS_PER_TEXEL, texels * BYTES_PER_TEXEL)
+        within = {}
+        for name in type(texture).model_fields:
+            inner = getattr(texture, name)
+            if isinstance(inner, BRANCHES):
+                sides = size_within(texture, name, size, measure)
+                within[name] = math.prod(sides)
+                cost += _textures(inner, facts, sides)
+        if isinstance(texture, FromExemplarSpec):
+            cost += texture.cost_from(within, math.prod(size))
+        else:
+            cost += texture.cost(math.prod(size))
     return cost
 
 
 def _texels_worn(texture: TextureSpec, facts: Mapping[str, AssetFacts]) -> int:
     """Return how large a texture is on a surface: uploaded pictures stay as large as they are."""
     texels = _texels(texture, facts) if isinstance(texture, ImageSpec) else 0
-    return texels or texture.surface_side**2
+    return texels or math.prod(texture.surface_size)
 
 
 def _texels(picture: ImageSpec, facts: Mapping[str, AssetFacts]) -> int:
@@ -99,7 +104,7 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
     cost = sampling(request.output)
     scene = request.scene
     drawn = [
-        (node, _moved(placed, found.middle), found)
+        (node, _moved(placed, found.middle), displaced(found, node.displacement))
         for node, placed in _placed(scene.nodes, IDENTITY)
         if node.mesh is not None and (found := body(node.mesh, facts)) is not None
     ]
@@ -110,14 +115,21 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
         else len(scene.lights)
     )
     lighting = SECONDS_PER_SHADED_SAMPLE + shining * SECONDS_PER_LIGHT_SAMPLE
+    lighting += seconds_of_shadows(scene.lights or [])
+    cookies = cookies_of(scene.lights or [])
+    # Both sides of a branch are run: every light asks every picture.
+    pictures = {cookie.unit: SECONDS_PER_MAP_SAMPLE[cookie.filter] for cookie in cookies}
+    lighting += shining * sum(pictures.values())
     textures = _WornTextures(facts)
     background = _maps(scene.background)
-    cost += textures.cost(background)
+    cost += textures.cost(background) + textures.cost(cookies)
     cost += Cost(samples * _seconds_per_sample(background))
     made = set()
+    once = 0.0
     for node, placed, found in drawn:
         drawing = found.draws * SECONDS_PER_DRAW + found.pieces * SECONDS_PER_DRAWN_TRIANGLE
         cost += Cost(tiles * drawing)
+        once += drawing
         if found.key not in made:
             made.add(found.key)
             cost += found.making
@@ -125,7 +137,7 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
         shown = node.surface or node.mesh
         surfaces = [part for _, part in parts(shown) if isinstance(part, SurfaceSpec)]
         maps = [_maps(surface) for surface in surfaces]
-        for worn in maps:
+        for worn in [*maps, _maps(node.displacement)]:
             cost += textures.cost(worn)
         own = MAPS_OF_A_MATERIAL * found.pictures * SECONDS_PER_MAP_SAMPLE["anisotropic"]
         shading = lighting + max([own, *map(_seconds_per_sample, maps)])
@@ -136,6 +148,7 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
             covered *= 2  # what is behind its front is shaded too
             cost += Cost(found.pieces * SECONDS_PER_SORTED_TRIANGLE)
         cost += Cost(samples * covered * shading)
+    cost += shadow_maps(scene.lights or [], once)
     # Equal things are made once, one after another, and kept: only the largest counts twice.
     return cost + Cost(bytes=textures.making)
 
@@ -146,7 +159,13 @@ def _maps(value: object) -> list[MAPS]:
 
 def _seconds_per_sample(maps: Sequence[MAPS]) -> float:
     """Return the seconds that looking up all of them once takes."""
-    return sum(SECONDS_PER_MAP_SAMPLE[item.filter] for item in maps)
+    return sum(_seconds_per_look(item) for item in maps)
+
+
+def _seconds_per_look(item: MAPS) -> float:
+    if isinstance(item, ParallaxMap):
+        return SECONDS_PER_PARALLAX_STEP * (1 if item.method == "offset" else item.steps)
+    return SECONDS_PER_MAP_SAMPLE[item.filter]
 
 
 def _moved(placed: Affine | None, middle: Vector3) -> Affine | None:
@@ -176,15 +195,14 @@ class _WornTextures:
         self.making = 0.0
         """Bytes that the largest of them takes while it is made."""
 
-    def cost(self, maps: Sequence[MAPS]) -> Cost:
+    def cost(self, maps: Sequence[MAPS | Cookie]) -> Cost:
         """Return the cost of what these maps need and no earlier ones did."""
         cost = Cost()
         for item in maps:
             picture = f"{type(item).__name__} {item.texture.model_dump_json()}"
             if picture not in self._made:
                 self._made.add(picture)
-                side = item.texture.surface_side
-                picture_cost = _texture(item.texture, self._facts, (side, side))
+                picture_cost = _textures(item.texture, self._facts, item.texture.surface_size)
                 self.making = max(self.making, picture_cost.bytes)
                 texels = _texels_worn(item.texture, self._facts)
                 cost += Cost(picture_cost.seconds, texels * BYTES_PER_KEPT_TEXEL)

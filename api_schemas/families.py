@@ -5,6 +5,8 @@ A technique's name is written once: its module's name, its `technique` literal, 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, ClassVar, Literal, Self
 
 from pydantic import Field
@@ -13,13 +15,24 @@ from api_schemas.base import Schema
 from api_schemas.cost import Cost
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from api_schemas.language import MappableNonNegative
-    from api_schemas.maps import NormalMap
+    from api_schemas.maps import LightMap, NormalMap
     from api_schemas.relief import BumpMap, HeightMap, ParallaxMap, TangentFrames
 
 Meaning = Literal["colour", "data"]
 Wrap = Literal["repeat", "mirror", "clamp", "border"]
 AlphaMode = Literal["opaque", "mask", "blend"]
+
+
+@dataclass(frozen=True, slots=True)
+class Refusal:
+    """Why a valid spec cannot be done: a problem's code, the field at fault, and the reason."""
+
+    code: str
+    field: str
+    message: str
 
 
 class TechniqueSpec(Schema):
@@ -53,6 +66,19 @@ class TextureSpec(TechniqueSpec):
     surface_side: ClassVar[int] = 1024
     """Pixels along each side of its picture, where a surface wears it."""
 
+    @property
+    def surface_size(self) -> tuple[int, int]:
+        """Width and height of its picture, where a surface wears it."""
+        return (self.surface_side, self.surface_side)
+
+    def inner_size(self, size: tuple[int, int]) -> tuple[int, int]:
+        """Return the size that textures within are made at, where this one is made at `size`."""
+        return size
+
+    def refusals(self) -> Iterator[Refusal]:
+        """Tell what its numbers make impossible, beyond what its schema refuses."""
+        yield from ()
+
     def cost(self, pixels: int) -> Cost:
         """Estimate this technique at a number of pixels, without the textures nested in it."""
         return Cost(seconds=pixels * 2e-8, bytes=pixels * 32)
@@ -60,6 +86,34 @@ class TextureSpec(TechniqueSpec):
     def volume_cost(self, voxels: int) -> Cost:
         """Estimate the same as a volume, where that does not just cost as much for each voxel."""
         return self.cost(voxels)
+
+
+class PresetSpec(TextureSpec):
+    """A composition of other techniques with a name, and parameters of its own."""
+
+    solid: ClassVar[bool] = True
+    pointwise: ClassVar[bool] = True
+
+    def composed(self) -> TextureSpec:
+        """Return the composition, of solid textures."""
+        raise NotImplementedError
+
+    def cost(self, pixels: int) -> Cost:
+        """Estimate all that it is composed of."""
+        return sum((part.cost(pixels) for part in textures_in(self.composed())), Cost())
+
+    def volume_cost(self, voxels: int) -> Cost:
+        """Estimate all that it is composed of."""
+        return sum((part.volume_cost(voxels) for part in textures_in(self.composed())), Cost())
+
+
+def textures_in(texture: TextureSpec) -> Iterator[TextureSpec]:
+    """Yield a texture and all that are nested in it."""
+    yield texture
+    for name in type(texture).model_fields:
+        value = getattr(texture, name)
+        if isinstance(value, TextureSpec):
+            yield from textures_in(value)
 
 
 class CoordinatesSpec(TechniqueSpec):
@@ -74,6 +128,15 @@ class LayoutSpec(TechniqueSpec):
 
     joins: ClassVar[tuple[Wrap, Wrap]] = ("clamp", "clamp")
     """What lies beyond the picture along u and v."""
+
+    @property
+    def proportion(self) -> tuple[int, int]:
+        """Width to height of the picture."""
+        return (1, 1)
+
+    def mistake(self) -> tuple[str, str] | None:
+        """Return which field is impossible and why, if JSON Schema could not say it."""
+        return None
 
 
 class SurfaceSpec(TechniqueSpec):
@@ -116,6 +179,11 @@ class SurfaceSpec(TechniqueSpec):
         description="Which directions normal and bump maps tilt along: those that bakers use, the "
         "mean of the triangles round each corner, or the parallels and meridians of a globe round "
         "the y axis. They follow the coordinates of the normal map, without one the bump map's.",
+    )
+
+    light_map: LightMap | None = Field(
+        default=None,
+        description="Baked light that arrives besides the lamps', reflected as ambient light is.",
     )
 
     def filled(self) -> Self:

@@ -17,6 +17,7 @@ from typing_extensions import TypeAliasType
 
 from api_schemas import coordinates, layouts, surfaces, textures
 from api_schemas.base import Color, NonNegative, Number, Schema
+from api_schemas.dishes import DishSpec, ReactionSpec
 from api_schemas.families import (
     CoordinatesSpec,
     LayoutSpec,
@@ -24,7 +25,8 @@ from api_schemas.families import (
     TechniqueSpec,
     TextureSpec,
 )
-from api_schemas.maps import ColorMap, Map, NormalMap, NumberMap, ScaledMap
+from api_schemas.maps import ColorMap, LightMap, Map, NormalMap, NumberMap, ScaledMap
+from api_schemas.parameters import ParameterMap
 from api_schemas.relief import (
     BumpMap,
     Displacement,
@@ -135,11 +137,12 @@ def _complete() -> None:
             "MappableNonNegative",
             "MappableColor",
         )
-    } | {model.__name__: model for model in (NormalMap, BumpMap, HeightMap, ParallaxMap)}
+    } | {model.__name__: model for model in (LightMap, NormalMap, BumpMap, HeightMap, ParallaxMap)}
     names["TangentFrames"] = TangentFrames
     members = [spec for family in FAMILIES.values() for spec in family.values()]
-    models: list[type[Schema]] = [Map, ScaledMap, ColorMap, NumberMap, NormalMap]
-    models += [ReliefMap, BumpMap, HeightMap, ParallaxMap, Displacement, SurfaceSpec, *members]
+    models: list[type[Schema]] = [Map, ScaledMap, ColorMap, LightMap, NumberMap, NormalMap]
+    models += [ReliefMap, BumpMap, HeightMap, ParallaxMap, Displacement, SurfaceSpec]
+    models += [ParameterMap, *ParameterMap.__subclasses__(), DishSpec, ReactionSpec, *members]
     for model in models:
         module = importlib.import_module(model.__module__)
         model.model_rebuild(force=True, _types_namespace={**vars(module), **names})

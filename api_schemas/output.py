@@ -28,6 +28,7 @@ Layer = Literal[
     "object_id",
     "material_id",
     "coverage",
+    "light_visibility",
 ]
 
 LayerName = Annotated[str, Field(pattern="^[a-z][a-z0-9_]{0,31}$")]
@@ -83,7 +84,7 @@ class RenderOutput(Output):
     supersampling: Annotated[int, Field(ge=1, le=8), WHOLE] = Field(
         default=2, description="Samples per pixel along each side: more are smoother and slower."
     )
-    layers: Annotated[list[Layer], Field(max_length=10), UNIQUE_ITEMS] = Field(
+    layers: Annotated[list[Layer], Field(max_length=16), UNIQUE_ITEMS] = Field(
         default=[],
         json_schema_extra={"uniqueItems": True},
         description="What is told of each pixel besides its colour. An EXR holds all that are "
@@ -93,8 +94,9 @@ class RenderOutput(Output):
         "the color of an unlit, diffuse or base, premultiplied, like light the mean of all "
         "samples; object_id, from 1 in the order of drawing, depth first; material_id, from 1 in "
         "the same order, equal surfaces together; coverage, the share of the pixel that things "
-        "cover. All but albedo and coverage belong to the nearest sample, are never averaged and 0 "
-        "where nothing is; what is blended leaves them to what is behind it. A PNG shows one layer "
+        "cover; light_visibility, the share of the lamps' light that shadows leave, 0 where a "
+        "surface faces away. All but albedo and coverage belong to the nearest sample, are never "
+        "averaged and 0 where nothing is; what is blended leaves them to what is behind it. A PNG shows one layer "
         "instead of the colour: albedo like a picture, directions as n / 2 + 1/2, depth as "
         "1 / (1 + Z), uv as red and green, an id as its own code, position and coverage as they "
         "are, cut off outside of 0..1.",

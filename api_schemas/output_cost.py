@@ -23,6 +23,7 @@ LAYER_CHANNELS: Mapping[Layer, int] = {
     "object_id": 1,
     "material_id": 1,
     "coverage": 1,
+    "light_visibility": 1,
 }
 
 _SECONDS_TO_START = 0.01

@@ -8,10 +8,12 @@ from pydantic import Field
 
 from api_schemas.base import Schema
 from api_schemas.camera import Camera
+from api_schemas.environment import Environment
 from api_schemas.language import MappableColor, Surface
 from api_schemas.lights import LIGHTS_MAX, Light
 from api_schemas.meshes import Mesh
 from api_schemas.relief import Displacement
+from api_schemas.surface_maps import SurfaceMap
 from api_schemas.transforms import Placement, Transform
 
 NODES_MAX = 1024
@@ -33,6 +35,14 @@ class Node(Schema):
         description="How the shape reflects light; without one a model has its own materials, and "
         "everything else is matt grey Phong.",
     )
+    surface_map: SurfaceMap | None = Field(
+        default=None,
+        description="Several surfaces on one shape, and a picture that says which one is where; in "
+        "the place of surface.",
+    )
+    casts_shadows: bool = Field(
+        default=True, description="Whether its own mesh keeps light from what is behind it."
+    )
     displacement: Displacement | None = Field(
         default=None, description="A relief that moves the shape's own points, outlines included."
     )
@@ -52,13 +62,18 @@ class Scene(Schema):
     lights: Annotated[list[Light], Field(max_length=LIGHTS_MAX)] | None = Field(
         default=None,
         description="What shines: nothing if empty, so that only emission and unlit surfaces show. "
-        "Without the list, the lights that models bring, else those of a studio: a lamp over the "
-        "eye's shoulder in a bright room.",
+        "Without the list, the lights that models bring, else, where there is no environment, "
+        "those of a studio: a lamp over the eye's shoulder in a bright room.",
     )
     background: MappableColor | None = Field(
         default=None,
         description="What is seen where nothing is: a linear colour, or a picture over the whole "
         "width and height, read once for each pixel; transparent without, and where the picture "
         "is. Layers do not show it.",
+    )
+    environment: Environment | None = Field(
+        default=None,
+        description="The light from all around: it shines on what is there, and is seen in mirrors "
+        "and behind everything.",
     )
     nodes: Annotated[list[Node], Field(max_length=NODES_MAX)] = Field(description="What is there.")

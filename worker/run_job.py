@@ -17,9 +17,10 @@ from worker import result_file, synthesis
 from worker.errors import AssetMissingError
 from worker.fingerprint import fingerprint
 from worker.images.image import Image
+from worker.preview import Preview
 from worker.rendering import renderer
 from worker.rendering.packing import PICTURE
-from worker.rendering.scene_builder import TextureMaker
+from worker.rendering.placing import TextureMaker
 from worker.stages import Report, Stages, Timed
 from worker.uploaded_models import UploadedModels
 from worker.uploaded_pictures import UploadedPictures
@@ -44,7 +45,8 @@ def run(request: dict[str, Any], out: Path, report: Report) -> dict[str, Any]:
     """Make the picture a request asks for and write it to `out`.
 
     Args:
-        request: `kind`, the normalised `body`, its `digest`, and the folder of `assets`.
+        request: `kind`, the normalised `body`, its `digest`, the folder of `assets`, and
+            where a `preview` may be left.
         out: Where the file is written; whoever asked gives it its final name.
         report: Told the share of the job that is done, 0..1, and the name of the stage.
 
@@ -82,7 +84,13 @@ def run(request: dict[str, Any], out: Path, report: Report) -> dict[str, Any]:
         counts, found, warnings = drawn.counts, drawn.report, drawn.warnings
     else:
         with stages.stage("synthesise", 0.02, 0.85) as progress:
-            made = synthesis.outcome(body.texture, (width, height), pictures.read, report=progress)
+            made = synthesis.outcome(
+                body.texture,
+                (width, height),
+                pictures.read,
+                report=progress,
+                show=Preview(Path(request["preview"])).show,
+            )
         found = made.report
         with stages.stage("encode", 0.85, 0.98):
             band = {PICTURE: made.image} | {name: made.layers[name] for name in body.output.layers}
@@ -119,7 +127,7 @@ def _maker(read: Callable[[ImageSpec, Meaning], Image]) -> TextureMaker:
     def make(spec: TextureSpec, meaning: Meaning) -> Image:
         if isinstance(spec, ImageSpec):
             return read(spec, meaning)
-        size = (spec.surface_side, spec.surface_side)
+        size = spec.surface_size
         return synthesis.synthesize(spec, size, read, meaning)
 
     return make

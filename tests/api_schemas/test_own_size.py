@@ -4,7 +4,7 @@ import pytest
 from pydantic import TypeAdapter
 
 from api_schemas.language import Texture
-from api_schemas.own_size import own_size, sizes_within
+from api_schemas.own_size import own_size, size_within
 
 UPLOAD = {"technique": "image", "asset": "0" * 64}
 SMALL_UPLOAD = {"technique": "image", "asset": "1" * 64}
@@ -39,9 +39,8 @@ def test_the_own_size_is_that_of_the_largest_pixels_within(body, size):
 def test_functions_of_functions_are_made_at_their_parents_size():
     body = {"technique": "mix", "a": UPLOAD, "b": DISH, "amount": NOISE}
 
-    sizes = sizes_within(texture(body), (70, 50), measure)
-
-    assert sizes == {"a": (70, 50), "b": (70, 50), "amount": (70, 50)}
+    for name in ("a", "b", "amount"):
+        assert size_within(texture(body), name, (70, 50), measure) == (70, 50)
 
 
 def test_an_exemplar_keeps_its_pixels_and_guides_are_as_large_as_the_result():
@@ -50,11 +49,9 @@ def test_an_exemplar_keeps_its_pixels_and_guides_are_as_large_as_the_result():
         "exemplar": UPLOAD, "exemplar_mask": SMALL_UPLOAD, "exemplar_guide": NOISE, "guide": NOISE,
     }  # fmt: skip
 
-    assert sizes_within(texture(body), (70, 50), measure) == {
-        "exemplar": (300, 200),
-        "exemplar_mask": (300, 200),
-        "exemplar_guide": (300, 200),
-        "guide": (64, 40),
-    }
-    smaller = texture({**body, "exemplar_size": [30, 20]})
-    assert sizes_within(smaller, (70, 50), measure)["exemplar_mask"] == (30, 20)
+    grown, smaller = texture(body), texture({**body, "exemplar_size": [30, 20]})
+
+    for name in ("exemplar", "exemplar_mask", "exemplar_guide"):
+        assert size_within(grown, name, (70, 50), measure) == (300, 200)
+        assert size_within(smaller, name, (70, 50), measure) == (30, 20)
+    assert size_within(grown, "guide", (70, 50), measure) == (64, 40)

@@ -21,6 +21,7 @@ CHANNELS = {
     "object_id": ["object_id"],
     "material_id": ["material_id"],
     "coverage": ["coverage"],
+    "light_visibility": ["light_visibility"],
 }
 
 

@@ -3,20 +3,56 @@
 from collections.abc import Callable, Iterable, Sequence
 
 from worker.rendering.chunks import Source, chunk, join
+from worker.rendering.light_code import light_chunks, light_lines
 from worker.rendering.relief_fragment import aside, relief_chunks, tilts
-from worker.rendering.shading_layout import LookupLayout, Parameter, ShadingLayout
+from worker.rendering.shading import is_lit
+from worker.rendering.shading_layout import (
+    LightLayout,
+    LookupLayout,
+    Parameter,
+    ShadingLayout,
+    SkyKind,
+)
 
 VERSION = "#version 410 core"
+_SELECTED = ["uniform int selected;", "uniform float selected_last;"]
 _BY_OPACITY = {
     "mask": "    if (opacity < alpha_cutoff) discard;",
     "blend": "    color *= opacity;",
 }
 
 
-def surface_sources(layout: ShadingLayout, *, layered: bool) -> tuple[Source, Source]:
+def surface_sources(
+    layout: ShadingLayout, lights: LightLayout, *, layered: bool
+) -> tuple[Source, Source]:
     """Return the vertex and the fragment source that draw a layout, with or without all layers."""
-    fragment = _fragment(layout, layered)
+    fragment = _fragment(layout, lights, layered)
     return join(chunk("mesh.vert"), "mesh.vert"), join(fragment, layout.technique)
+
+
+def hole_sources(layout: ShadingLayout) -> tuple[Source, Source]:
+    """Return the sources that draw the depth alone, with holes where little or nothing is."""
+    read = [p for p in (layout.opacity, layout.selection) if p is not None]
+    numbers = list(dict.fromkeys(p.lookup for p in read if p.lookup is not None))
+    calls = [(call, number) for number in numbers for call in layout.lookups[number].calls]
+    chunks = ["lib/fragment.glsl", "lib/opacity.glsl", *(call.chunk for call, _ in calls)]
+    lines = _head(layout, chunks)
+    for call, number in calls:
+        lines += call.declarations(number)
+    for parameter in read:
+        lines += _declarations(parameter)
+    lines += [
+        *(_SELECTED if layout.selection else []),
+        "void main() {",
+        "    SurfacePoint point = surface_point();",
+        *_texels(layout, numbers, _place),
+    ]
+    lines += _selection(layout)
+    if layout.opacity:
+        cutoff = "alpha_cutoff" if layout.alpha_mode == "mask" else "0.5"
+        opacity = f"bounded({_value(layout.opacity)}, point.color.a)"
+        lines.append(f"    if ({opacity} < {cutoff}) discard;")
+    return join(chunk("mesh.vert"), "mesh.vert"), join("\n".join([*lines, "}"]), "hole")
 
 
 def background_sources(layout: ShadingLayout) -> tuple[Source, Source]:
@@ -38,21 +74,47 @@ def background_sources(layout: ShadingLayout) -> tuple[Source, Source]:
     return vertex, join("\n".join(lines), "background")
 
 
-def _fragment(layout: ShadingLayout, layered: bool) -> str:
-    parameters = [*layout.parameters, *([layout.opacity] if layout.opacity else [])]
+def sky_sources(kind: SkyKind) -> tuple[Source, Source]:
+    """Return the sources that draw what is behind everything as the eye looks through it."""
+    lines = [
+        VERSION,
+        '#include "lib/sky_background.glsl"',
+        f'#include "skies/{kind}.glsl"',
+        "void main() {",
+        "    vec3 towards = ray();",
+        "    float reach = max(length(dFdx(towards)), length(dFdy(towards)));",
+        "    color = holdable(vec4(sky_in_mirror(towards, reach, 0.0), 1.0));",
+        "}",
+    ]
+    vertex = join(chunk("whole_target.vert"), "whole_target.vert")
+    return vertex, join("\n".join(lines), "sky")
+
+
+def _fragment(layout: ShadingLayout, lights: LightLayout, layered: bool) -> str:
+    others = (layout.opacity, layout.light_map, layout.selection)
+    parameters = [*layout.parameters, *(parameter for parameter in others if parameter)]
     chunks = ["lib/fragment.glsl", f"surfaces/{layout.technique}.glsl"]
     calls = [(call, n) for n, lookup in enumerate(layout.lookups) for call in lookup.calls]
     chunks += [call.chunk for call, _ in calls]
     chunks += relief_chunks(layout.relief)
     chunks += ["lib/opacity.glsl"] if layout.opacity else []
     chunks += ["lib/layers.glsl"] if layered else []
+    lit = is_lit(layout.technique) or lights.visibility
+    if is_lit(layout.technique):
+        chunks.append(f"skies/{lights.sky}.glsl")
+    chunks += light_chunks(lights) if lit else []
     lines = _head(layout, chunks)
+    lines += light_lines(lights) if lit else []
     for call, number in calls:
         lines += call.declarations(number)
     for parameter in parameters:
         lines += _declarations(parameter)
+    lines += _SELECTED if layout.selection else []
     lines += ["void main() {", "    SurfacePoint point = surface_point();"]
     lines += _relief(layout)
+    lines += _selection(layout)
+    if layout.light_map:
+        lines.append(f"    baked_radiance = {_value(layout.light_map)};")
     lines.append("    Surface surface;")
     lines += [f"    surface.{p.name} = {_value(p)};" for p in layout.parameters]
     lines.append("    color = holdable(shade(point, surface));")
@@ -61,7 +123,20 @@ def _fragment(layout: ShadingLayout, layered: bool) -> str:
         lines.append(_BY_OPACITY[layout.alpha_mode])
     if layered:
         lines.append("    write_layers(point, albedo(surface), color.a);")
+    if lights.visibility:
+        lines.append("    layer_tangent.a = light_visibility(point);")
     return "\n".join([*lines, "}"])
+
+
+def _selection(layout: ShadingLayout) -> list[str]:
+    """Write what leaves out the places of other surfaces; what is no number is the first one."""
+    if layout.selection is None:
+        return []
+    return [
+        f"    float chosen = {_value(layout.selection)};",
+        "    chosen = isnan(chosen) ? 0.0 : clamp(floor(chosen + 0.5), 0.0, selected_last);",
+        "    if (int(chosen) != selected) discard;",
+    ]
 
 
 def _head(layout: ShadingLayout, chunks: Sequence[str]) -> list[str]:

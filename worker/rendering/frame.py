@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from worker.rendering.gl_context import GL
-from worker.rendering.lookups import Picture
+from worker.rendering.lighting import Lighting
 from worker.rendering.programs import Program
 from worker.rendering.pyrender_scene import FlatScene
 from worker.rendering.targets import Target
@@ -40,25 +40,23 @@ class Frame:
     Attributes:
         number: Which frame of this renderer it is, from 1.
         scene: What is drawn.
-        lights: Uniforms.
+        lights: What shines on it.
         target: Where the samples go.
         clip_from_object: float32 (n, 4, 4), by the number of the drawable.
-        eye: As lib/fragment.glsl wants it.
         corner: Of the tile in the picture, in samples from the lower left.
         picture: Width and height of the whole picture in pixels.
         supersampling: Samples along each side of a pixel.
+        tile_from_picture: Stretches the tile's part of clip space over all of it.
         blending: Whether what is drawn now lets light through.
-        bound: What each texture unit holds.
     """
 
     number: int
     scene: FlatScene
-    lights: dict[str, Any]
+    lights: Lighting
     target: Target
     clip_from_object: NDArray[np.float32]
-    eye: NDArray[np.float64]
     corner: NDArray[np.float64]
     picture: NDArray[np.float64]
     supersampling: int
+    tile_from_picture: NDArray[np.float64]
     blending: bool
-    bound: dict[int, Picture]

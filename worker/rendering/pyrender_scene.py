@@ -11,7 +11,9 @@ from numpy.typing import NDArray
 from worker.geometry.transforms import Matrix, normal_matrix
 from worker.rendering.draw_order import back_to_front, nearness
 from worker.rendering.gl_context import GL, floats
+from worker.rendering.programs import Program
 from worker.rendering.shading import Shading
+from worker.rendering.sky import Sky
 from worker.rendering.vertex_arrays import VertexArray
 
 _FINE = 1 << 17
@@ -35,19 +37,43 @@ class View:
     clip_from_camera: Matrix
     orthographic: bool
 
+    def rays(self, tile_from_picture: Matrix) -> tuple[NDArray[np.float64], ...]:
+        """Return where the eye looks: through a tile's middle, and from there to right and top.
+
+        The directions through other places add up. With parallel views there is but one.
+        """
+        axes = self.world_from_camera[:3, :3]
+        if self.orthographic:
+            return -axes[:, 2], np.zeros(3), np.zeros(3)
+        clip_from_ray = (tile_from_picture @ self.clip_from_camera)[[0, 1, 3], :3]
+        across, up, middle = (axes @ np.linalg.inv(clip_from_ray)).T
+        return middle, across, up
+
 
 @dataclass(frozen=True, slots=True)
 class Drawable:
-    """A mesh in OpenGL, a surface, where they stand, and the number of the surface from 1."""
+    """A mesh in OpenGL, a surface, and where they stand.
+
+    Attributes:
+        mesh: What is drawn.
+        shading: How.
+        world_from_object: Where.
+        material: The number of the surface, from 1.
+        thing: The number of what it is or is a part of, from 1.
+        casts_shadows: Whether it keeps light away.
+    """
 
     mesh: VertexArray
     shading: Shading
     world_from_object: Matrix
     material: int
+    thing: int
+    casts_shadows: bool
 
 
-Background: TypeAlias = Shading | tuple[float, ...]
-"""What is seen where nothing is: a mapped colour over the whole picture, or a linear colour."""
+Background: TypeAlias = Shading | Sky | tuple[float, ...]
+"""What is seen where nothing is: a mapped colour over the whole picture, the environment, or a
+linear colour."""
 
 
 class SurfaceMaterial(pyrender.Material):  # type: ignore[misc]
@@ -71,6 +97,7 @@ class SurfacePrimitive(pyrender.Primitive):  # type: ignore[misc]
     Attributes:
         mesh: What is drawn.
         number: Its place among the drawables.
+        thing: Its object id.
         mirrored: Whether its transform turns the winding of triangles.
         hidden: Which sides are left out in each pass: outer, inner, or none (None).
         elements: Its triangles, lines or points from back to front, where that matters.
@@ -85,6 +112,7 @@ class SurfacePrimitive(pyrender.Primitive):  # type: ignore[misc]
         super().__init__(positions=_NO_VERTICES, material=material)
         self.mesh = drawable.mesh
         self.number = number
+        self.thing = drawable.thing
         self.mirrored = mirrored
         self.hidden = (GL.GL_BACK,)
         self.elements = None
@@ -132,19 +160,28 @@ class FlatScene(pyrender.Scene):  # type: ignore[misc]
 
     Attributes:
         background: What is behind everything.
+        sky: The light from all around, if there is any but the even one.
         view: The eye.
         in_order: Its nodes as they are drawn.
+        casters: Those that keep light away.
+        eye: As lib/fragment.glsl wants it.
         world_from_object: (n, 4, 4), by the number of the drawable.
         eye_from_object: float32 (n, 4, 4), axes of the world and origin at the eye.
         normal_from_object: float32 (n, 3, 3).
     """
 
     def __init__(
-        self, drawables: Sequence[Drawable], view: View, background: Background | None
+        self,
+        drawables: Sequence[Drawable],
+        view: View,
+        background: Background | None,
+        sky: Sky | None,
     ) -> None:
         """Put drawables and the eye into a scene of pyrender's."""
         super().__init__(bg_color=np.zeros(4), ambient_light=np.zeros(3))
+        self._drawables = drawables
         self.background = background
+        self.sky = sky
         self.view = view
         camera = MatrixCamera(view.clip_from_camera)
         self.add_node(PlacedNode(view.world_from_camera, camera=camera))
@@ -152,6 +189,8 @@ class FlatScene(pyrender.Scene):  # type: ignore[misc]
         matrices = matrices.reshape(-1, 4, 4)
         eye_from_object = matrices.copy()
         eye_from_object[:, :3, 3] -= view.world_from_camera[:3, 3]
+        backward = view.world_from_camera[:3, 2]
+        self.eye = np.append(backward, 0.0) if view.orthographic else np.array([0.0, 0.0, 0.0, 1.0])
         self.world_from_object = matrices
         self.eye_from_object = floats(eye_from_object)
         self.normal_from_object = floats(normal_matrix(matrices))
@@ -160,7 +199,29 @@ class FlatScene(pyrender.Scene):  # type: ignore[misc]
             primitive = SurfacePrimitive(drawables[number], number, view, mirrored=bool(mirrored))
             nodes.append(PlacedNode(matrices[number], mesh=pyrender.Mesh([primitive])))
             self.add_node(nodes[-1])
-        self.in_order = [nodes[number] for number in _drawing_order(drawables, view)]
+        order = _drawing_order(drawables, view)
+        self.in_order = [nodes[number] for number in order]
+        self.casters = [nodes[number] for number in order if drawables[number].casts_shadows]
+
+    def corners(self) -> NDArray[np.float64]:
+        """Give the corners of boxes that hold all that is drawn: (n, 3) in the world."""
+        boxes = [
+            np.stack(np.meshgrid(*drawable.mesh.bounds.T), axis=-1).reshape(-1, 3)
+            @ drawable.world_from_object[:3, :3].T
+            + drawable.world_from_object[:3, 3]
+            for drawable in self._drawables
+        ]
+        return np.concatenate([np.empty((0, 3)), *boxes])
+
+    def place(self, program: Program, primitive: SurfacePrimitive) -> None:
+        """Tell the bound program where a primitive stands to the eye."""
+        program.set("eye", self.eye)
+        if "eye_position" in program.uniforms:
+            program.set("eye_position", self.view.world_from_camera[:3, 3])
+            program.set("camera_from_world", self.view.world_from_camera[:3, :3].T)
+        program.set("eye_from_object", self.eye_from_object[primitive.number])
+        program.set("normal_from_object", self.normal_from_object[primitive.number])
+        program.set("handedness", -1.0 if primitive.mirrored else 1.0)
 
     def get_pose(self, node: PlacedNode) -> Matrix:
         """Return where a node stands, without a search for its parents."""

@@ -9,6 +9,9 @@ from worker.rendering.calls import Call
 from worker.rendering.samplers import Sampling
 from worker.rendering.textures import TextureFormat
 
+SkyKind = Literal["none", "latlong", "cube"]
+"""The chunks of shaders/skies."""
+
 
 @dataclass(frozen=True, slots=True)
 class Parameter:
@@ -48,6 +51,36 @@ class PictureLayout:
 
 
 @dataclass(frozen=True, slots=True)
+class CookieLayout:
+    """A picture before a light: how texels become a pixel, and its texture unit."""
+
+    filter: Filter
+    picture: PictureLayout
+
+
+@dataclass(frozen=True, slots=True)
+class LightLayout:
+    """What the programs of lit surfaces know of a scene's lights.
+
+    Attributes:
+        shadows: Whether any casts shadows.
+        cookies: The pictures before them.
+        visibility: Whether what comes through is told as a layer, of surfaces that need none too.
+        sky: Which chunk reads the light from all around.
+    """
+
+    shadows: bool = False
+    cookies: tuple[CookieLayout, ...] = ()
+    visibility: bool = False
+    sky: SkyKind = "none"
+
+    @property
+    def samplers(self) -> tuple[str, ...]:
+        """The names of the cookies' texture units in the program."""
+        return tuple(f"cookie_{number}" for number in range(len(self.cookies)))
+
+
+@dataclass(frozen=True, slots=True)
 class ReliefLayout:
     """What moves and tilts a point before anything else is read.
 
@@ -84,6 +117,8 @@ class ShadingLayout:
         alpha_mode: Whether opacity is ignored, cuts holes, or lets through what is behind.
         opacity: How it is read, unless it is ignored.
         relief: What moves and tilts the point.
+        light_map: How baked light is read, if there is any.
+        selection: How the number is read that says which surface is where, if there are several.
         lookups: Readings of pictures.
         pictures: Texture units of maps, then of tables.
         tables: What the surface's own tables are called.
@@ -94,9 +129,16 @@ class ShadingLayout:
     alpha_mode: AlphaMode
     opacity: Parameter | None
     relief: ReliefLayout
+    light_map: Parameter | None
+    selection: Parameter | None
     lookups: tuple[LookupLayout, ...]
     pictures: tuple[PictureLayout, ...]
     tables: tuple[str, ...]
+
+    @property
+    def has_holes(self) -> bool:
+        """Whether not all of the mesh may be there."""
+        return self.alpha_mode != "opaque" or self.selection is not None
 
     @property
     def samplers(self) -> tuple[str, ...]:

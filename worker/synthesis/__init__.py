@@ -3,14 +3,14 @@
 Every technique module has
 
     def synthesize(
-        spec, size: tuple[int, int], inputs: Mapping[str, Image], report: Report
+        spec, size: tuple[int, int], inputs: Mapping[str, Image], report: Progress
     ) -> Image | Outcome
 
 with size = (width, height), `inputs` the pictures that the spec's fields hold, by field name,
-made at the same size unless their slots want another (api_schemas/own_size.py), and `report` to be
-told the share that is done and the step, where there are steps. It is a pure function: no clock, no
-state, inputs are never modified. An Outcome is a picture with layers beside it, or with something
-to say of it.
+made at the same size unless the spec's `inner_size` or a slot (`MadeAt`) says otherwise, and
+`report` to be told the share that is done and the step, where there are steps, and what there is to
+see of it. It is a pure function: no clock, no state, inputs are never modified. An Outcome is a
+picture with layers beside it, or with something to say of it.
 One whose spec is `solid` but not `pointwise` also has
 
     def synthesize_volume(
@@ -33,11 +33,13 @@ import functools
 import importlib
 import pkgutil
 from collections import Counter
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import TYPE_CHECKING, cast
 
-from api_schemas.families import TextureSpec
+from api_schemas.families import Meaning, PresetSpec, TextureSpec
 from api_schemas.language import FAMILIES
-from api_schemas.own_size import Size, sizes_within
+from api_schemas.maps import DATA
+from api_schemas.own_size import Size, size_within
+from api_schemas.parameters import ParameterMap
 from api_schemas.textures.image import ImageSpec
 from api_schemas.walk import meaning_of
 from worker.closed_form import ClosedForm
@@ -49,24 +51,12 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
     from types import ModuleType
 
-    from api_schemas.families import Meaning
     from worker.images.image import Image
     from worker.stages import Report
 
+    Key = tuple[str, Meaning]
+    SizedKey = tuple[str, Meaning, Size]
     Load = Callable[[ImageSpec, Meaning], Image]
-    Key = tuple[str, Meaning, Size]
-
-
-class _Wanted(NamedTuple):
-    """A texture, how it is read, and at which size."""
-
-    spec: TextureSpec
-    meaning: Meaning
-    size: Size
-
-    @property
-    def key(self) -> Key:
-        return (self.spec.model_dump_json(), self.meaning, self.size)
 
 
 def synthesize(
@@ -89,6 +79,7 @@ def outcome(
     load: Load,
     meaning: Meaning = "colour",
     report: Report = silent,
+    show: Callable[[Image], None] | None = None,
 ) -> Outcome:
     """Make the picture of a texture, with its layers and what there is to say of it.
 
@@ -96,47 +87,53 @@ def outcome(
 
     Args:
         spec: A texture of any technique.
-        size: Width and height in pixels, also of the nested pictures but where a slot wants others.
+        size: Width and height in pixels, also of what is nested in it but for techniques that
+            count in cells or copy pixels.
         load: Gives the picture of an uploaded asset in linear light, at its own size, for a slot
             that is read as colour or as data.
         meaning: Of the slot that the texture itself is in.
         report: Told the finished part, 0..1, and the technique or its step.
+        show: Given what there is to see of the texture itself while it is made.
 
     Raises:
         WorkerError: Whatever `load` or a technique raises.
     """
 
     @functools.cache
-    def loaded(spec: ImageSpec, meaning: Meaning) -> Image:
-        return load(spec, meaning)
+    def loaded(picture: ImageSpec, meaning: Meaning) -> Image:
+        return load(picture, meaning)
 
-    top = _Wanted(spec, meaning, size)
-    uses = Counter(wanted.key for wanted in _all(top, loaded))
-    shared: dict[Key, Outcome] = {}
+    uses = Counter(_sized_keys(spec, meaning, size, loaded))
+    shared: dict[SizedKey, Outcome] = {}
     done = 0
+    top = spec
 
-    def make(wanted: _Wanted) -> Outcome:
+    def make(spec: TextureSpec, meaning: Meaning, size: Size) -> Outcome:
         nonlocal done
-        if wanted.key in shared:
-            return shared[wanted.key]
-        spec = wanted.spec
-        inputs = {name: make(inner).image for name, inner in _within(wanted, loaded).items()}
+        key = (*_key(spec, meaning), size)
+        if key in shared:
+            return shared[key]
+        sizes = _sizes(spec, meaning, size, loaded)
+        slots = _slots(spec, meaning)
+        inputs = {name: make(*slot, sizes[name]).image for name, slot in slots.items()}
         if isinstance(spec, ImageSpec):
-            inputs["asset"] = loaded(spec, wanted.meaning)
+            inputs["asset"] = loaded(spec, meaning)
         before = done
 
-        def told(share: float, step: str) -> None:
+        def told(share: float, step: str, preview: Image | None = None) -> None:
             report((before + share) / len(uses), step)
+            if show is not None and preview is not None and spec is top:
+                show(preview)
 
         told(0.0, spec.technique)
-        made = _module(spec.technique).synthesize(spec, wanted.size, inputs, told)
+        made = _module(spec.technique).synthesize(spec, size, inputs, told)
         done += 1
         finished = made if isinstance(made, Outcome) else Outcome(made)
-        if uses[wanted.key] > 1:
-            shared[wanted.key] = finished
+        if uses[key] > 1:
+            shared[key] = finished
         return finished
 
-    return make(top)
+    return make(spec, meaning, size)
 
 
 def synthesize_volume(
@@ -156,7 +153,7 @@ def synthesize_volume(
         report: Told the finished part, 0..1, and the technique or its step.
     """
     uses = Counter(_keys(spec, meaning))
-    shared: dict[tuple[str, Meaning], Volume] = {}
+    shared: dict[Key, Volume] = {}
     done = 0
 
     def make(spec: TextureSpec, meaning: Meaning) -> Volume:
@@ -190,6 +187,8 @@ def closed_form(
         solid: Whether it is asked for in space, else in the plane w = 0.
         meaning: Of the slot that the texture itself is in.
     """
+    if isinstance(spec, PresetSpec):
+        return closed_form(spec.composed(), solid=solid, meaning=meaning)
     module = _module(spec.technique)
     parameters = module.closed_form(spec, solid=solid) if hasattr(module, "closed_form") else None
     if parameters is None:
@@ -219,20 +218,6 @@ def warm(report: Report) -> None:
             module.warm()
 
 
-def _within(wanted: _Wanted, load: Load) -> dict[str, _Wanted]:
-    """Return the textures directly within another, each as its slot wants it."""
-
-    def measure(picture: ImageSpec) -> Size:
-        loaded = load(picture, wanted.meaning)
-        return loaded.width, loaded.height
-
-    fields = type(wanted.spec).model_fields
-    return {
-        name: _Wanted(getattr(wanted.spec, name), meaning_of(fields[name], wanted.meaning), size)
-        for name, size in sizes_within(wanted.spec, wanted.size, measure).items()
-    }
-
-
 def _fill(
     spec: TextureSpec, size: tuple[int, int, int], inputs: Mapping[str, Volume], report: Report
 ) -> Volume:
@@ -248,28 +233,43 @@ def _fill(
 
 def _slots(spec: TextureSpec, meaning: Meaning) -> dict[str, tuple[TextureSpec, Meaning]]:
     """Return the textures directly within a spec, each with the meaning of its slot."""
+    if isinstance(spec, PresetSpec):
+        return {"composed": (spec.composed(), meaning)}
     slots = {}
     for name, field in type(spec).model_fields.items():
         value = getattr(spec, name)
         if isinstance(value, TextureSpec):
             slots[name] = (value, meaning_of(field, meaning))
+        elif isinstance(value, ParameterMap):
+            slots[name] = (value.texture, DATA.meaning)
     return slots
 
 
-def _key(spec: TextureSpec, meaning: Meaning) -> tuple[str, Meaning]:
+def _key(spec: TextureSpec, meaning: Meaning) -> Key:
     return (spec.model_dump_json(), meaning)
 
 
-def _keys(spec: TextureSpec, meaning: Meaning) -> Iterator[tuple[str, Meaning]]:
+def _keys(spec: TextureSpec, meaning: Meaning) -> Iterator[Key]:
     yield _key(spec, meaning)
     for slot in _slots(spec, meaning).values():
         yield from _keys(*slot)
 
 
-def _all(wanted: _Wanted, load: Load) -> Iterator[_Wanted]:
-    yield wanted
-    for inner in _within(wanted, load).values():
-        yield from _all(inner, load)
+def _sized_keys(spec: TextureSpec, meaning: Meaning, size: Size, load: Load) -> Iterator[SizedKey]:
+    yield (*_key(spec, meaning), size)
+    sizes = _sizes(spec, meaning, size, load)
+    for name, slot in _slots(spec, meaning).items():
+        yield from _sized_keys(*slot, sizes[name], load)
+
+
+def _sizes(spec: TextureSpec, meaning: Meaning, size: Size, load: Load) -> dict[str, Size]:
+    """Return the size at which each texture directly within a spec is made."""
+
+    def measure(picture: ImageSpec) -> Size:
+        found = load(picture, meaning)
+        return found.width, found.height
+
+    return {name: size_within(spec, name, size, measure) for name in _slots(spec, meaning)}
 
 
 def _module(technique: str) -> ModuleType:

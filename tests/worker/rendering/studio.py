@@ -28,6 +28,7 @@ class Studio:
         self._arrays: dict[str, Pixels] = {}
         self.models: dict[str, Model] = {}
         self.facts: dict[str, Any] = {}
+        self.found: dict[str, Any] = {}
         self.reports: list[tuple[float, str]] = []
 
     def texture(self, array: Any) -> dict[str, Any]:
@@ -47,7 +48,7 @@ class Studio:
         """Give a texture's picture: the array behind an image, else as its technique makes it."""
         if isinstance(spec, ImageSpec):
             return Image(self._arrays[spec.asset], meaning)
-        size = (spec.surface_side, spec.surface_side)
+        size = spec.surface_size
         return synthesize(spec, size, self.make, meaning)
 
     def mesh(self, mesh: Mesh) -> dict[str, Any]:
@@ -86,6 +87,7 @@ class Studio:
         )
         bands = list(rendering.bands)
         self.facts = rendering.timings | rendering.counts
+        self.found = rendering.report
         return {name: np.concatenate([band[name].pixels for band in bands]) for name in bands[0]}
 
     def poster(
