@@ -137,8 +137,7 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
     if (environment := scene.environment) is not None:
         lighting += SKY_SECONDS_PER_SAMPLE
         cost += Cost(samples * SKY_SECONDS_PER_SAMPLE) + sky_textures(environment).cost()
-        size = math.prod(environment.texture.surface_size)
-        cost += _textures(environment.texture, facts, size)
+        cost += _textures(environment.texture, facts, environment.texture.surface_size)
         cost += Cost(bytes=_texels_worn(environment.texture, facts) * BYTES_PER_KEPT_TEXEL)
     made = set()
     once = 0.0
