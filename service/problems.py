@@ -46,6 +46,7 @@ TABLE: Final[Mapping[str, tuple[int, str]]] = {
     "no_steady_state": (409, "The chemicals of a reaction are nowhere at rest"),
     "reaction_diverged": (409, "The chemicals of a reaction grew without end"),
     "environment_texels": (409, "Numbers of an environment are infinite or none"),
+    "exemplar_unusable": (409, "There is nothing to copy"),
     "layout_without_direction": (409, "A layout needs coordinates that are a direction"),
     "layout_impossible": (409, "A layout cannot be so"),
     "formula_missing": (409, "A texture has no formula where one is asked for"),

@@ -200,7 +200,7 @@ def test_t48_where_space_goes_on_a_solid_relief_has_no_seam(studio: Studio) -> N
 
     moved_ball = with_relief(fine, spec, 0, volume)
 
-    # Neighbours differ by no more than the steepest slope of noise allows: 4 cells, < 3 each
+    # Neighbours differ by no more than noise is steep: 4 cells, less than 3 each
     places = moved_ball.positions[moved_ball.triangles]
     edges = np.linalg.norm(places - np.roll(places, 1, axis=1), axis=2)
     assert edges.max() < np.pi / 128 * (1 + 0.3 * 4 * 3)

@@ -59,7 +59,7 @@ def test_show_5_the_direction_is_read_that_is_looked_up(
         # Where a direction is a whole rim, or directions turn without bound at one, probes in a row
         # still tell, and squares of texels do not
         sharp = filter_name == "anisotropic" and technique != "hemispheres"
-        assert np.quantile(error, 0.99 if sharp else 0.9) < 2.0
+        assert np.quantile(error, 0.99 if sharp else 0.85) < 2.0
 
 
 @pytest.mark.parametrize("filter_name", FILTERS)
