@@ -121,6 +121,7 @@ OBSTACLE_CODES: Final = (
     "no_steady_state",
     "reaction_diverged",
     "coordinates_missing",
+    "mipmaps_need_exr",
     "layers_need_exr",
     "layer_unknown",
     "texture_not_solid",
