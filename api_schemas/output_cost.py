@@ -24,6 +24,8 @@ LAYER_CHANNELS: Mapping[Layer, int] = {
     "material_id": 1,
     "coverage": 1,
     "light_visibility": 1,
+    "crypto_object": 15,
+    "crypto_material": 15,
 }
 
 _SECONDS_TO_START = 0.01

@@ -16,6 +16,7 @@ import tempfile
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, TypedDict
 
 import numpy as np
@@ -166,6 +167,7 @@ def write_exr(
     digest: str,
     version: str,
     mipmaps: bool = False,
+    attributes: Mapping[str, str] = MappingProxyType({}),
 ) -> None:
     """Write an OpenEXR file: linear, premultiplied, zip; layers as `join_layers` names them.
 
@@ -180,6 +182,7 @@ def write_exr(
         digest: Of the request.
         version: Of this program.
         mipmaps: Whether the box means of `mip_chain` are written as well, in tiles.
+        attributes: What else the file says of itself.
 
     Raises:
         ValueError: The layers of a band are none, or of different sizes.
@@ -199,6 +202,8 @@ def write_exr(
     spec.attribute("DateTime", "1970:01:01 00:00:00")
     spec.attribute("texloom:digest", digest)
     spec.attribute("texloom:version", version)
+    for name, text in attributes.items():
+        spec.attribute(name, text)
     if any(image.meaning == "colour" for image in layers.values()):
         spec.attribute("oiio:ColorSpace", _COLOUR_SPACES["linear"])
         spec.attribute("chromaticities", OpenImageIO.TypeDesc("float[8]"), REC709_CHROMATICITIES)
