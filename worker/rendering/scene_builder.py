@@ -101,6 +101,7 @@ class SceneBuilder:
                     worn[key][1],
                     item.thing,
                     item.node.casts_shadows,
+                    item.name,
                 )
             )
         vertices = (
