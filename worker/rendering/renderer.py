@@ -5,6 +5,7 @@ import functools
 import time
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -27,6 +28,7 @@ from worker.rendering.pyrender_adapter import FloatRenderer
 from worker.rendering.pyrender_scene import FlatScene
 from worker.rendering.scene_builder import SceneBuilder
 from worker.rendering.shading import surface_fields
+from worker.rendering.surroundings import with_surroundings
 from worker.rendering.targets import TargetPair
 from worker.rendering.texture_maker import TextureMaker
 from worker.rendering.tiles import (
@@ -118,6 +120,7 @@ def render(
     built = engine.builder.build(
         scene, width / height, textures, models, tangents="tangent" in output.layers
     )
+    built = with_surroundings(built, engine.renderer, engine.targets, engine.builder, textures)
     placed = FlatScene(built.drawables, built.view, built.background, built.sky)
     eye = built.view.world_from_camera[:3, 3]
     lights = lighting(
@@ -197,8 +200,15 @@ def warm(report: Report, textures: TextureMaker) -> None:
         textures: Makes the tables that surfaces bring themselves; they are kept.
     """
 
-    def picture(spec: TextureSpec, meaning: Meaning, proportion: tuple[int, int] = (1, 1)) -> Image:
-        return _grey(meaning) if spec == _GREY else textures.picture(spec, meaning, proportion)
+    def picture(
+        spec: TextureSpec,
+        meaning: Meaning,
+        proportion: tuple[int, int] = (1, 1),
+        rendered: Mapping[str, Image] = MappingProxyType({}),
+    ) -> Image:
+        if spec == _GREY:
+            return _grey(meaning)
+        return textures.picture(spec, meaning, proportion, rendered)
 
     maker = replace(textures, picture=picture)
 
