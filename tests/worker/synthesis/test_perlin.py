@@ -132,18 +132,19 @@ def test_every_choice_changes_the_picture(field):
     )
 
 
-@pytest.mark.parametrize("seed", [0, 7])
-def test_two_thirds_of_the_energy_lie_in_one_octave(seed):
-    size, cells = 1024, 64
-
-    pixels = picture((size, size), frequency=cells, seed=seed, range="signed")
-
-    energy = abs(np.fft.fft2(pixels)) ** 2
+def test_two_thirds_of_the_energy_lie_in_one_octave():
+    size, cells = 512, 32
     waves = np.fft.fftfreq(size, 1 / size) / cells
     per_cell = np.hypot(waves[:, np.newaxis], waves)
-    band = energy[(per_cell >= 0.44) & (per_cell < 0.88)].sum() / energy.sum()
-    # 66.9 % for the mean over permutations; 4096 cells of one permutation scatter by 2 %
-    assert band == pytest.approx(0.669, abs=0.05)
+    best = (per_cell >= 0.44) & (per_cell < 0.88)
+    shares = []
+    for seed in range(24):
+        pixels = picture((size, size), frequency=cells, seed=seed, range="signed")
+        energy = abs(np.fft.fft2(pixels)) ** 2
+        shares.append(energy[best].sum() / energy.sum())
+
+    # 66.9 % for the mean over permutations; 1024 cells of one scatter by 4 %, the mean by .8 %
+    assert np.mean(shares) == pytest.approx(0.669, abs=0.02)
 
 
 def test_octaves_are_not_zero_together_on_the_lattice_of_the_first():
