@@ -66,6 +66,11 @@ class TextureSpec(TechniqueSpec):
     surface_side: ClassVar[int] = 1024
     """Pixels along each side of its picture, where a surface wears it."""
 
+    @property
+    def surface_size(self) -> tuple[int, int]:
+        """Width and height of its picture, where a surface wears it."""
+        return (self.surface_side, self.surface_side)
+
     def inner_size(self, size: tuple[int, int]) -> tuple[int, int]:
         """Return the size that textures within are made at, where this one is made at `size`."""
         return size
@@ -73,6 +78,10 @@ class TextureSpec(TechniqueSpec):
     def refusals(self) -> Iterator[Refusal]:
         """Tell what its numbers make impossible, beyond what its schema refuses."""
         yield from ()
+
+    def has_formula(self) -> bool:
+        """Whether it can be worked out at any place; the textures nested in it must be able too."""
+        return False
 
     def cost(self, pixels: int) -> Cost:
         """Estimate this technique at a number of pixels, without the textures nested in it."""

@@ -1,19 +1,22 @@
 """Requests that are well-formed and still cannot be drawn: told before any work starts."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 from api_schemas.camera import Camera, FramedCamera, ModelCamera
 from api_schemas.cookies import COOKIES_MAX
+from api_schemas.environment import Environment
 from api_schemas.families import SurfaceSpec, TextureSpec
 from api_schemas.geometry import IDENTITY, Affine, Vector3, affine, cross, length, triple
 from api_schemas.light_cost import cookies_of
 from api_schemas.lights import DirectionalLight, Light, SpotLight
+from api_schemas.map_feasibility import map_obstacles
 from api_schemas.maps import MAPS_MAX, Map
 from api_schemas.model_mesh import ModelMesh
+from api_schemas.obstacle import Obstacle
 from api_schemas.output import SIDE_MAX, RenderOutput, TextureOutput
 from api_schemas.requests import Request, TextureRequest
 from api_schemas.scene import NODES_MAX, Node
+from api_schemas.sky import SKY_MAPS
 from api_schemas.solid import flat_parts
 from api_schemas.textures.image import ImageSpec
 from api_schemas.transforms import MatrixPlacement
@@ -24,15 +27,6 @@ TEXTURES_MAX = 256
 SHORTEST_DIRECTION = 1e-12
 SMALLEST_SINE = 1e-7
 """Sine of the angle between viewing and up direction below which float32 cannot tell up."""
-
-
-@dataclass(frozen=True, slots=True)
-class Obstacle:
-    """One reason why a valid request cannot be done, and where in the body it lies."""
-
-    code: str
-    pointer: str
-    message: str
 
 
 def obstacles(request: Request) -> list[Obstacle]:
@@ -72,22 +66,19 @@ def _limits(request: Request) -> Iterator[Obstacle]:
             "nesting_too_deep", place, f"{levels} levels within each other; at most {LEVELS_MAX}"
         )
     textures, nodes = 0, 0
+    surrounded = any(isinstance(part, Environment) for _, part in parts(request))
+    most = MAPS_MAX - SKY_MAPS * surrounded
     for pointer, part in parts(request):
         textures += isinstance(part, TextureSpec)
         nodes += isinstance(part, Node)
         if isinstance(part, SurfaceSpec):
             maps = sum(isinstance(value, Map) for _, value in parts(part))
-            if maps > MAPS_MAX:
+            if maps > most:
                 yield Obstacle(
-                    "too_many_maps", pointer, f"{maps} maps on one surface; at most {MAPS_MAX}"
+                    "too_many_maps", pointer, f"{maps} maps on one surface; at most {most}"
                 )
-        if isinstance(part, Map) and part.layout and part.coordinates.dimensions != 3:
-            yield Obstacle(
-                "layout_without_direction",
-                f"{pointer}/layout",
-                f"{part.coordinates.technique} coordinates are a place on the picture already; "
-                "a layout needs a direction",
-            )
+        if isinstance(part, Map):
+            yield from map_obstacles(part, pointer)
     for count, limit, things in (
         (textures, TEXTURES_MAX, "textures"),
         (nodes, NODES_MAX, "scene nodes"),

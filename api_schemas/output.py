@@ -126,9 +126,9 @@ class RenderOutput(Output):
         "samples; object_id, from 1 in the order of drawing, depth first; material_id, from 1 in "
         "the same order, equal surfaces together; coverage, the share of the pixel that things "
         "cover; light_visibility, the share of the lamps' light that shadows leave, 0 where a "
-        "surface faces away. All but albedo and coverage belong to the nearest sample, are never averaged and 0 "
-        "where nothing is; what is blended leaves them to what is behind it. A PNG shows one layer "
-        "instead of the colour: albedo like a picture, directions as n / 2 + 1/2, depth as "
-        "1 / (1 + Z), uv as red and green, an id as its own code, position and coverage as they "
-        "are, cut off outside of 0..1.",
+        "surface faces away. All but albedo and coverage belong to the nearest sample, are never "
+        "averaged and 0 where nothing is; what is blended leaves them to what is behind it. A PNG "
+        "shows one layer instead of the colour: albedo like a picture, directions as n / 2 + 1/2, "
+        "depth as 1 / (1 + Z), uv as red and green, an id as its own code, position and coverage "
+        "as they are, cut off outside of 0..1.",
     )

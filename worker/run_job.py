@@ -12,15 +12,17 @@ from typing import Any
 from api_schemas.families import Meaning, TextureSpec
 from api_schemas.feasibility import assets_in
 from api_schemas.requests import REQUESTS, RenderRequest, Request
+from api_schemas.solid import worn_depth, worn_size
 from api_schemas.textures.image import ImageSpec
 from worker import result_file, synthesis
 from worker.errors import AssetMissingError
 from worker.fingerprint import fingerprint
 from worker.images.image import Image
+from worker.images.volume import Volume
 from worker.preview import Preview
 from worker.rendering import renderer
 from worker.rendering.packing import PICTURE
-from worker.rendering.scene_builder import TextureMaker
+from worker.rendering.texture_maker import TextureMaker
 from worker.slices import slices_in
 from worker.stages import Report, Stages, Timed
 from worker.uploaded_models import UploadedModels
@@ -133,13 +135,16 @@ def _find(body: Request, assets: Path) -> None:
 def _maker(read: Callable[[ImageSpec, Meaning], Image]) -> TextureMaker:
     """Make textures for surfaces: pictures at their own size, others at their technique's."""
 
-    def make(spec: TextureSpec, meaning: Meaning) -> Image:
+    def picture(spec: TextureSpec, meaning: Meaning, proportion: tuple[int, int] = (1, 1)) -> Image:
         if isinstance(spec, ImageSpec):
             return read(spec, meaning)
-        size = (spec.surface_side, spec.surface_side)
-        return synthesis.synthesize(spec, size, read, meaning)
+        return synthesis.synthesize(spec, worn_size(spec, proportion), read, meaning)
 
-    return make
+    def volume(spec: TextureSpec, meaning: Meaning) -> Volume:
+        side = worn_depth(spec)
+        return synthesis.synthesize_volume(spec, (side, side, side), meaning)
+
+    return TextureMaker(picture, volume, synthesis.closed_form)
 
 
 def _no_picture(spec: ImageSpec, meaning: Meaning) -> Image:
