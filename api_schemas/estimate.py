@@ -31,6 +31,7 @@ from api_schemas.own_size import FUNCTION_SIZE, Size, size_within
 from api_schemas.relief import AnyMap, ParallaxMap
 from api_schemas.requests import RenderRequest, Request
 from api_schemas.scene import Node
+from api_schemas.sky import SKY_SECONDS_PER_SAMPLE, sky_textures
 from api_schemas.textures.image import ImageSpec
 from api_schemas.walk import BRANCHES, outermost, parts
 
@@ -41,6 +42,7 @@ SECONDS_PER_MAP_SAMPLE = {
     "bilinear": 1e-8,
     "trilinear": 2e-8,
     "anisotropic": 1.5e-7,
+    "formula": 4e-7,
 }
 SECONDS_PER_PARALLAX_STEP = 2e-8
 SECONDS_TO_COMPILE_A_MAP = 0.12
@@ -61,7 +63,15 @@ def estimate(request: Request, facts: Mapping[str, AssetFacts]) -> Cost:
     width, height = request.output.size
     if isinstance(request, RenderRequest):
         return cost + _drawing(request, facts)
+    if request.output.slices:
+        return cost + volume_of(request.texture, width * height * request.output.slices)
     return cost + _textures(request, facts, (width, height))
+
+
+def volume_of(texture: TextureSpec, voxels: int) -> Cost:
+    """Return the cost of making a solid texture, with all that are in it."""
+    found = (part for _, part in parts(texture) if isinstance(part, TextureSpec))
+    return sum((part.volume_cost(voxels) for part in found), Cost())
 
 
 def _textures(value: object, facts: Mapping[str, AssetFacts], size: Size) -> Cost:
@@ -124,6 +134,11 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
     background = _maps(scene.background)
     cost += textures.cost(background) + textures.cost(cookies)
     cost += Cost(samples * _seconds_per_sample(background))
+    if (environment := scene.environment) is not None:
+        lighting += SKY_SECONDS_PER_SAMPLE
+        cost += Cost(samples * SKY_SECONDS_PER_SAMPLE) + sky_textures(environment).cost()
+        cost += _textures(environment.texture, facts, environment.texture.surface_size)
+        cost += Cost(bytes=_texels_worn(environment.texture, facts) * BYTES_PER_KEPT_TEXEL)
     made = set()
     once = 0.0
     for node, placed, found in drawn:

@@ -79,6 +79,10 @@ class TextureSpec(TechniqueSpec):
         """Tell what its numbers make impossible, beyond what its schema refuses."""
         yield from ()
 
+    def has_formula(self) -> bool:
+        """Whether it can be worked out at any place; the textures nested in it must be able too."""
+        return False
+
     def cost(self, pixels: int) -> Cost:
         """Estimate this technique at a number of pixels, without the textures nested in it."""
         return Cost(seconds=pixels * 2e-8, bytes=pixels * 32)

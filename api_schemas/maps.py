@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 MAPS_MAX = 24
 """Maps on one surface: with eight to spare, what OpenGL lets a shader read."""
 
-Filter = Literal["nearest", "bilinear", "trilinear", "anisotropic"]
+Filter = Literal["nearest", "bilinear", "trilinear", "anisotropic", "formula"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +72,8 @@ class Map(Schema):
     filter: Filter = Field(
         default="anisotropic",
         description="How texels become a pixel: hard texels, smooth when near, smooth when far, "
-        "or sharp at grazing angles too.",
+        "or sharp at grazing angles too. formula makes no picture: a texture that has a formula is "
+        "worked out at every pixel, repeated in all directions, with detail without end.",
     )
 
 

@@ -1,5 +1,6 @@
 """What the finished picture looks like as a file."""
 
+import math
 from collections.abc import Mapping
 from typing import Annotated, Literal
 
@@ -29,6 +30,8 @@ Layer = Literal[
     "material_id",
     "coverage",
     "light_visibility",
+    "crypto_object",
+    "crypto_material",
 ]
 
 LayerName = Annotated[str, Field(pattern="^[a-z][a-z0-9_]{0,31}$")]
@@ -65,6 +68,11 @@ class Output(Schema):
         "softly, or like film.",
     )
 
+    @property
+    def file_size(self) -> tuple[int, int]:
+        """Width and height of the file."""
+        return self.size[0], self.size[1]
+
 
 class TextureOutput(Output):
     """The same, for textures."""
@@ -76,6 +84,37 @@ class TextureOutput(Output):
         "its own layers, by name. An EXR holds all that are named, as channels; a PNG shows one "
         "layer instead of the picture.",
     )
+    mipmaps: bool = Field(
+        default=False,
+        description="Whether an EXR is cut into tiles of 64 pixels and holds the picture at half, "
+        "a quarter ... of its size too, each pixel the mean of what it covers: what renderers and "
+        "texture caches (.tx) read a part at a time.",
+    )
+    slices: Annotated[int, Field(ge=1, le=1024), WHOLE] | None = Field(
+        default=None,
+        description="Makes a solid texture as a volume of so many slices, the first one at w = 0; "
+        "size is that of a slice.",
+    )
+    arrangement: Literal["atlas", "layers"] = Field(
+        default="atlas",
+        description="Where slices go: beside each other into one picture, in rows from the upper "
+        "left, as nearly square as can be, what is left over 0; or into an EXR as layers "
+        "slice_0000, slice_0001 and so on, beside the first one as the picture.",
+    )
+
+    @property
+    def columns(self) -> int:
+        """Slices in a row of the file."""
+        slices = self.slices if self.slices and self.arrangement == "atlas" else 1
+        width, height = self.size
+        return max(1, min(slices, round(math.sqrt(slices * height / width))))
+
+    @property
+    def file_size(self) -> tuple[int, int]:
+        """Width and height of the file: of all slices, where they lie beside each other."""
+        slices = self.slices if self.slices and self.arrangement == "atlas" else 1
+        rows = math.ceil(slices / self.columns)
+        return self.size[0] * self.columns, self.size[1] * rows
 
 
 class RenderOutput(Output):
@@ -95,9 +134,12 @@ class RenderOutput(Output):
         "samples; object_id, from 1 in the order of drawing, depth first; material_id, from 1 in "
         "the same order, equal surfaces together; coverage, the share of the pixel that things "
         "cover; light_visibility, the share of the lamps' light that shadows leave, 0 where a "
-        "surface faces away. All but albedo and coverage belong to the nearest sample, are never "
-        "averaged and 0 where nothing is; what is blended leaves them to what is behind it. A PNG shows one layer "
-        "instead of the colour: albedo like a picture, directions as n / 2 + 1/2, depth as "
-        "1 / (1 + Z), uv as red and green, an id as its own code, position and coverage as they "
-        "are, cut off outside of 0..1.",
+        "surface faces away; crypto_object and crypto_material, up to six things of a "
+        "pixel with the share of each, as Cryptomatte has them, called by the nodes' names (else "
+        "box 3, sphere 4) and material 1, material 2. All but albedo, coverage and shares belong "
+        "to the nearest sample, are never averaged and 0 where nothing is; what is blended leaves "
+        "them to what is behind it. A PNG shows one layer instead of the colour: albedo like a "
+        "picture, directions as n / 2 + 1/2, depth as 1 / (1 + Z), uv as red and green, an id as "
+        "its own code, those of Cryptomatte as a colour each, position and coverage as they are, "
+        "cut off outside of 0..1.",
     )

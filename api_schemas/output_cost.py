@@ -8,7 +8,7 @@ import math
 from collections.abc import Mapping
 
 from api_schemas.cost import Cost
-from api_schemas.output import SIDE_MAX, Layer, Output, RenderOutput
+from api_schemas.output import SIDE_MAX, Layer, Output, RenderOutput, TextureOutput
 
 SAMPLES_PER_TILE = 2048 * 2048
 SAMPLES_PER_LAYERED_TILE = 1024 * 1024
@@ -24,6 +24,8 @@ LAYER_CHANNELS: Mapping[Layer, int] = {
     "material_id": 1,
     "coverage": 1,
     "light_visibility": 1,
+    "crypto_object": 15,
+    "crypto_material": 15,
 }
 
 _SECONDS_TO_START = 0.01
@@ -34,6 +36,7 @@ _SECONDS_PER_SAMPLE = 4e-8
 _SECONDS_PER_LAYERED_SAMPLE = 1.4e-7
 _SECONDS_PER_LAYERED_PIXEL = 2e-7
 _BYTES_PER_PIXEL = 48
+_MORE_FOR_MIPMAPS = 2
 _BYTES_PER_LAYER_NUMBER = 12
 _BYTES_PER_SAMPLE = 52
 _BYTES_PER_LAYERED_SAMPLE = 240
@@ -41,7 +44,9 @@ _BYTES_PER_LAYERED_SAMPLE = 240
 
 def writing(output: Output) -> Cost:
     """Return the cost of making a file of pixels that are there."""
-    pixels = output.size[0] * output.size[1]
+    pixels = math.prod(output.file_size)
+    if isinstance(output, TextureOutput) and output.slices:
+        pixels = max(pixels, math.prod(output.size) * output.slices)
     if output.format == "exr":
         seconds = _SECONDS_PER_EXR_PIXEL[output.exr_type]
     else:
@@ -53,6 +58,9 @@ def writing(output: Output) -> Cost:
         held = min(pixels, _samples_per_tile(output))
     else:
         held = pixels
+        if isinstance(output, TextureOutput) and output.mipmaps:
+            seconds *= _MORE_FOR_MIPMAPS
+            held *= _MORE_FOR_MIPMAPS
     return Cost(
         _SECONDS_TO_START + pixels * (seconds + numbers * _SECONDS_PER_LAYER_NUMBER),
         float(held * (_BYTES_PER_PIXEL + numbers * _BYTES_PER_LAYER_NUMBER)),

@@ -9,8 +9,9 @@ from api_schemas.assets import AssetFacts
 from api_schemas.cost import Cost
 from api_schemas.digest import digest
 from api_schemas.estimate import estimate
-from api_schemas.feasibility import Obstacle, assets_in, obstacles
+from api_schemas.feasibility import assets_in, obstacles
 from api_schemas.normalise import formatted, normalise
+from api_schemas.obstacle import Obstacle
 from api_schemas.output import Format
 from api_schemas.problems import PROBLEMS_MAX, CostFigures, Obstruction
 from api_schemas.relief_use import relief_misuses

@@ -120,9 +120,12 @@ OBSTACLE_CODES: Final = (
     "time_step_unstable",
     "no_steady_state",
     "reaction_diverged",
+    "coordinates_unsuited",
     "coordinates_missing",
     "layers_need_exr",
     "layer_unknown",
+    "texture_not_solid",
+    "atlas_too_large",
     "over_budget",
 )
 

@@ -3,10 +3,11 @@
 from collections.abc import Iterable, Mapping
 from itertools import chain
 from pathlib import Path
+from types import MappingProxyType
 
 import numpy as np
 
-from api_schemas.output import MEDIA_TYPES, Output, PngBits
+from api_schemas.output import MEDIA_TYPES, Output, PngBits, TextureOutput
 from api_schemas.version import VERSION
 from worker.images import image_io
 from worker.images.image import Image
@@ -22,7 +23,13 @@ _EXR_NAMES = {
 }
 
 
-def write(bands: Iterable[Mapping[str, Image]], output: Output, digest: str, path: Path) -> str:
+def write(
+    bands: Iterable[Mapping[str, Image]],
+    output: Output,
+    digest: str,
+    path: Path,
+    attributes: Mapping[str, str] = MappingProxyType({}),
+) -> str:
     """Write a picture, or one layer of it, to a path and return the file's media type.
 
     A PNG holds straight alpha and, for colour, sRGB after exposure and tone curve; an EXR holds
@@ -34,11 +41,12 @@ def write(bands: Iterable[Mapping[str, Image]], output: Output, digest: str, pat
         output: What kind of file is wanted.
         digest: Of the request.
         path: Where the file goes.
+        attributes: What an EXR says of itself besides.
 
     Raises:
         OSError: The file cannot be written.
     """
-    height = output.size[1]
+    _, height = output.file_size
     if output.format == "exr":
         image_io.write_exr(
             ({_EXR_NAMES.get(name, name): band[name] for name in band} for band in bands),
@@ -47,6 +55,8 @@ def write(bands: Iterable[Mapping[str, Image]], output: Output, digest: str, pat
             pixel_type=output.exr_type,
             digest=digest,
             version=VERSION,
+            mipmaps=isinstance(output, TextureOutput) and output.mipmaps,
+            attributes=attributes,
         )
         return MEDIA_TYPES["exr"]
     pictures = (_shown(band, output.png_bits) for band in bands)

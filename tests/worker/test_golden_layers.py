@@ -22,6 +22,8 @@ CHANNELS = {
     "material_id": ["material_id"],
     "coverage": ["coverage"],
     "light_visibility": ["light_visibility"],
+    "crypto_object": [f"CryptoObject.{letter}" for letter in "RGB"],
+    "crypto_material": [f"CryptoMaterial.{letter}" for letter in "RGB"],
 }
 
 

@@ -44,3 +44,9 @@ PLACES: Mapping[str, Place] = {
     "light_visibility": Place(5, 3, 4),
     "uv": Place(6, 0, 2),
 }
+
+SAMPLED: Mapping[str, Place] = {
+    "crypto_object": Place(3, 3, 4),
+    "crypto_material": Place(4, 3, 4),
+}
+"""Layers that are made of all of a pixel's samples, and where these lie."""

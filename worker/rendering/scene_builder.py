@@ -5,24 +5,20 @@ from dataclasses import dataclass
 from typing import Any
 
 from api_schemas.coordinates.uv import UvSpec
-from api_schemas.families import Meaning, SurfaceSpec, TextureSpec
+from api_schemas.families import SurfaceSpec
 from api_schemas.lights import Light
 from api_schemas.maps import ColorMap
 from api_schemas.scene import Scene
 from api_schemas.surfaces.unlit import UnlitSpec
-from worker.images.image import Image
-from worker.images.pyramids import Cut, keep_coverage, mip_chain
-from worker.images.relief import Preparation, prepared
-from worker.rendering.cache import ByteCache
 from worker.rendering.cookies import Cookies, cookies_of
 from worker.rendering.kept_meshes import MeshCache, frames_report
-from worker.rendering.lookups import TextureSource
-from worker.rendering.placing import ModelReader, TextureMaker, place
+from worker.rendering.placing import ModelReader, place
 from worker.rendering.pyrender_scene import Background, Drawable, View
 from worker.rendering.shading import Shading, shade
 from worker.rendering.sky import Skies, Sky
 from worker.rendering.staging import lights_of, view_of
-from worker.rendering.textures import Texture
+from worker.rendering.texture_maker import TextureMaker
+from worker.rendering.texture_store import TextureStore
 
 TEXTURE_BYTES_MAX = 128 << 20
 LARGEST_LIGHT = 5e36
@@ -50,7 +46,7 @@ class SceneBuilder:
 
     def __init__(self) -> None:
         """Begin with nothing in OpenGL."""
-        self._textures = ByteCache[Texture](TEXTURE_BYTES_MAX, Texture.delete)
+        self._textures = TextureStore(TEXTURE_BYTES_MAX)
         self._meshes = MeshCache()
         self._skies = Skies()
 
@@ -83,7 +79,7 @@ class SceneBuilder:
         for item, found in zip(placed, kept, strict=True):
             key = item.worn
             if key not in worn:
-                shading = shade(item.surface, self._source(maker), item.selection)
+                shading = shade(item.surface, self._textures.source(maker), item.selection)
                 worn[key] = shading, len(worn) + 1
             drawables.append(
                 Drawable(
@@ -93,6 +89,7 @@ class SceneBuilder:
                     worn[key][1],
                     item.thing,
                     item.node.casts_shadows,
+                    item.name,
                 )
             )
         vertices = (
@@ -107,7 +104,7 @@ class SceneBuilder:
             surrounded=scene.environment is not None,
         )
         sky = None if scene.environment is None else self._skies.sky(scene.environment, maker)
-        cookies = cookies_of(lights, self._source(maker))
+        cookies = cookies_of(lights, self._textures.source(maker))
         background = self._background(scene.background, maker)
         if background is None and scene.environment is not None and scene.environment.visible:
             background = sky
@@ -141,24 +138,7 @@ class SceneBuilder:
         self._skies.trim()
 
     def _shading(self, surface: SurfaceSpec, maker: TextureMaker) -> Shading:
-        return shade(surface, self._source(maker))
-
-    def _source(self, maker: TextureMaker) -> TextureSource:
-        def texture_of(
-            spec: TextureSpec,
-            meaning: Meaning,
-            *,
-            levels: bool,
-            cut: Cut | None = None,
-            preparation: Preparation | None = None,
-        ) -> Texture:
-            cut = cut if levels else None
-            key = (spec.model_dump_json(), meaning, levels, cut, preparation)
-            return self._textures.get(
-                key, lambda: _upload(prepared(maker(spec, meaning), preparation), levels, cut)
-            )
-
-        return texture_of
+        return shade(surface, self._textures.source(maker))
 
     def _background(
         self, spec: list[float] | ColorMap | None, maker: TextureMaker
@@ -170,11 +150,3 @@ class SceneBuilder:
             surface = UnlitSpec(technique="unlit", color=spec.model_copy(update=where))
             return self._shading(surface, maker)
         return tuple(min(value, LARGEST_LIGHT) for value in spec)
-
-
-def _upload(image: Image, levels: bool, cut: Cut | None) -> tuple[Texture, int]:
-    chain = mip_chain(image.pixels) if levels else [image.pixels]
-    if cut is not None:
-        keep_coverage(chain, cut)
-    texture = Texture.upload(chain, image.meaning)
-    return texture, texture.size_bytes

@@ -23,18 +23,37 @@ class Parameter:
 
 
 @dataclass(frozen=True, slots=True)
+class FormulaLayout:
+    """A texture worked out at the fragment.
+
+    Attributes:
+        chunks: Which it calls.
+        declarations: Of its uniforms.
+        call: An expression of place, across_x and across_y.
+        solid: Whether it fills space.
+    """
+
+    chunks: tuple[str, ...]
+    declarations: tuple[str, ...]
+    call: str
+    solid: bool
+
+
+@dataclass(frozen=True, slots=True)
 class LookupLayout:
     """One reading of a picture; parameters that share a lookup cost one.
 
     Attributes:
         calls: Which say where: that of the coordinates, then that of the layout, if there is one.
         filter: How texels become a pixel.
-        picture: Which unit is read.
+        picture: Which unit is read; none where there is a formula.
+        formula: What is worked out in its place.
     """
 
     calls: tuple[Call, ...]
     filter: Filter
-    picture: int
+    picture: int | None
+    formula: FormulaLayout | None = None
 
     @property
     def returns(self) -> str:

@@ -13,11 +13,8 @@ from numpy.typing import NDArray
 
 from api_schemas.environment import Environment
 from api_schemas.families import Meaning, TextureSpec
-from api_schemas.layouts.cube import CubeSpec
 from api_schemas.layouts.latlong import LatlongSpec
-from api_schemas.textures.convert_layout import ConvertLayoutSpec
-from api_schemas.textures.irradiance import IrradianceSpec
-from api_schemas.textures.prefiltered_environment import PrefilteredEnvironmentSpec
+from api_schemas.sky import SKY_ROUGHNESS, sky_textures
 from worker.images.image import Image
 from worker.images.mending import mended
 from worker.images.pyramids import mip_chain
@@ -31,10 +28,6 @@ from worker.rendering.shading_layout import SkyKind
 from worker.rendering.textures import Texture
 
 CUBES_BYTES_MAX = 64 << 20
-ROUGHNESS = [0.2, 0.4, 0.6, 0.8, 1.0]
-"""Of the levels of a rough cube: lib/environment.glsl counts on steps of equal height."""
-
-_COLUMN = CubeSpec(technique="cube", arrangement="column", orientation="gl")
 _UNITS = {"sky_picture": 23, "sky_rough": 24, "sky_matt": 25}
 """Below those of lights; a scene with an environment has room for that many maps less."""
 
@@ -49,7 +42,7 @@ class Sky:
     Attributes:
         kind: Which chunk reads it.
         picture: As it is, with its mip levels.
-        rough: As rough mirrors see it, a level for each of ROUGHNESS.
+        rough: As rough mirrors see it, a level for each of SKY_ROUGHNESS.
         matt: Irradiance over pi.
         uniforms: What else the chunk wants to know.
     """
@@ -87,31 +80,15 @@ class Skies:
         Raises:
             WorkerError: A texture cannot be made.
         """
-        rough = PrefilteredEnvironmentSpec(
-            technique="prefiltered_environment",
-            environment=spec.texture,
-            layout=spec.layout,
-            to=_COLUMN,
-            roughness=ROUGHNESS,
-        )
-        matt = IrradianceSpec(
-            technique="irradiance",
-            environment=spec.texture,
-            layout=spec.layout,
-            to=_COLUMN,
-            method=spec.matt,
-        )
-        kind: SkyKind = "latlong" if isinstance(spec.layout, LatlongSpec) else "cube"
+        textures = sky_textures(spec)
+        kind: SkyKind = "latlong" if textures.whole is None else "cube"
         picture: Texture | CubeTexture
-        if isinstance(spec.layout, LatlongSpec):
+        if textures.whole is None:
             picture = self._pictures.get(
                 spec.texture.model_dump_json(), lambda: _flat(maker(spec.texture, "colour"))
             )
         else:
-            whole = ConvertLayoutSpec(
-                technique="convert_layout", environment=spec.texture, layout=spec.layout, to=_COLUMN
-            )
-            picture = self._cube(whole, maker, sharp_levels)
+            picture = self._cube(textures.whole, maker, sharp_levels)
         uniforms: dict[str, Any] = {
             "sky_from_world": turned(spec.rotation_y),
             "sky_intensity": spec.intensity,
@@ -121,8 +98,8 @@ class Skies:
         return Sky(
             kind,
             picture,
-            self._cube(rough, maker, _panels),
-            self._cube(matt, maker, lambda pixels: [faces_in(pixels)]),
+            self._cube(textures.rough, maker, _panels),
+            self._cube(textures.matt, maker, lambda pixels: [faces_in(pixels)]),
             uniforms,
         )
 
@@ -160,7 +137,7 @@ def _panels(pixels: NDArray[np.float32]) -> list[NDArray[np.float32]]:
     """Cut the pictures that stand on each other, each half as large, into faces."""
     height, width = pixels.shape[0] // 2, pixels.shape[1]
     levels, top = [], 0
-    for index in range(len(ROUGHNESS)):
+    for index in range(len(SKY_ROUGHNESS)):
         rows, columns = height >> index, width >> index
         levels.append(faces_in(np.ascontiguousarray(pixels[top : top + rows, :columns])))
         top += rows

@@ -49,7 +49,7 @@ class TextureUnits:
         if self._bound.get(unit) != picture:
             self._bound[unit] = picture
             GL.glActiveTexture(GL.GL_TEXTURE0 + unit)
-            GL.glBindTexture(GL.GL_TEXTURE_2D, picture.texture.number)
+            GL.glBindTexture(picture.texture.target, picture.texture.number)
             GL.glBindSampler(unit, self._samplers.get(picture.sampling, picture.border))
 
     def trim(self) -> None:

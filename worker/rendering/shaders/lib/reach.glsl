@@ -29,3 +29,21 @@ Reach difference_of(vec3 value) {
 Footprint flat_reach(Reach reach) {
     return Footprint(reach.place.xy, reach.across_x.xy, reach.across_y.xy);
 }
+
+// Moved as pictures are: the first two numbers by a matrix, the third left alone.
+Reach transformed(Reach reach, mat3 transform) {
+    mat3 linear = mat3(
+        vec3(transform[0].xy, 0.0), vec3(transform[1].xy, 0.0), vec3(0.0, 0.0, 1.0)
+    );
+    return Reach(
+        linear * reach.place + vec3(transform[2].xy, 0.0),
+        linear * reach.across_x,
+        linear * reach.across_y
+    );
+}
+
+Reach transformed(Footprint at, mat3 transform) {
+    return transformed(
+        Reach(vec3(at.place, 0.0), vec3(at.across_x, 0.0), vec3(at.across_y, 0.0)), transform
+    );
+}
