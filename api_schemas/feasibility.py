@@ -36,7 +36,9 @@ def obstacles(request: Request) -> list[Obstacle]:
         return found
     found += _refusals(request)
     if isinstance(request, TextureRequest):
-        return [*found, *_slices(request), *_layer_names(request), *_layers(request.output)]
+        output = request.output
+        found += [*_slices(request), *_layer_names(request), *_layers(output)]
+        return [*found, *_mipmaps(output)]
     found += _camera(request.scene.camera)
     found += _cookies(request.scene.lights or [])
     for index, light in enumerate(request.scene.lights or []):
@@ -141,6 +143,13 @@ def _turntable(output: RenderOutput) -> Iterator[Obstacle]:
             "/output/turntable/frames",
             f"the frames beside each other take {width} x {height} pixels; "
             f"at most {SIDE_MAX} along a side",
+        )
+
+
+def _mipmaps(output: TextureOutput) -> Iterator[Obstacle]:
+    if output.mipmaps and output.format != "exr":
+        yield Obstacle(
+            "mipmaps_need_exr", "/output/mipmaps", "a PNG holds one size; an EXR holds them all"
         )
 
 

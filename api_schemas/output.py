@@ -91,6 +91,12 @@ class TextureOutput(Output):
         "its own layers, by name. An EXR holds all that are named, as channels; a PNG shows one "
         "layer instead of the picture.",
     )
+    mipmaps: bool = Field(
+        default=False,
+        description="Whether an EXR is cut into tiles of 64 pixels and holds the picture at half, "
+        "a quarter ... of its size too, each pixel the mean of what it covers: what renderers and "
+        "texture caches (.tx) read a part at a time.",
+    )
     slices: Annotated[int, Field(ge=1, le=1024), WHOLE] | None = Field(
         default=None,
         description="Makes a solid texture as a volume of so many slices, the first one at w = 0; "

@@ -36,6 +36,7 @@ _SECONDS_PER_SAMPLE = 4e-8
 _SECONDS_PER_LAYERED_SAMPLE = 1.4e-7
 _SECONDS_PER_LAYERED_PIXEL = 2e-7
 _BYTES_PER_PIXEL = 48
+_MORE_FOR_MIPMAPS = 2
 _BYTES_PER_LAYER_NUMBER = 12
 _BYTES_PER_SAMPLE = 52
 _BYTES_PER_LAYERED_SAMPLE = 240
@@ -62,6 +63,9 @@ def writing(output: Output) -> Cost:
             held = pixels // rows
     else:
         held = pixels
+        if isinstance(output, TextureOutput) and output.mipmaps:
+            seconds *= _MORE_FOR_MIPMAPS
+            held *= _MORE_FOR_MIPMAPS
     return Cost(
         _SECONDS_TO_START + pixels * (seconds + numbers * _SECONDS_PER_LAYER_NUMBER),
         float(held * (_BYTES_PER_PIXEL + numbers * _BYTES_PER_LAYER_NUMBER)),

@@ -7,7 +7,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from api_schemas.output import MEDIA_TYPES, Output, PngBits
+from api_schemas.output import MEDIA_TYPES, Output, PngBits, TextureOutput
 from api_schemas.version import VERSION
 from worker.images import image_io
 from worker.images.image import Image
@@ -55,6 +55,7 @@ def write(
             pixel_type=output.exr_type,
             digest=digest,
             version=VERSION,
+            mipmaps=isinstance(output, TextureOutput) and output.mipmaps,
             attributes=attributes,
         )
         return MEDIA_TYPES["exr"]

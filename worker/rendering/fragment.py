@@ -96,7 +96,7 @@ def _fragment(layout: ShadingLayout, lights: LightLayout, layered: bool) -> str:
     others = (layout.opacity, layout.light_map, layout.selection)
     parameters = [*layout.parameters, *(parameter for parameter in others if parameter)]
     chunks = ["lib/fragment.glsl", f"surfaces/{layout.technique}.glsl"]
-    chunks += relief_chunks(layout.relief)
+    chunks += relief_chunks(layout)
     chunks += ["lib/opacity.glsl"] if layout.opacity else []
     chunks += ["lib/layers.glsl"] if layered else []
     lit = is_lit(layout.technique) or lights.visibility

@@ -17,7 +17,7 @@ from worker.geometry import primitives
 from worker.geometry.mesh import Mesh
 from worker.geometry.transforms import Matrix, parent_from_node
 from worker.models.model import Model, Part
-from worker.rendering.displacing import levels_of, with_relief
+from worker.rendering.displacing import levels_of, relief_of, with_relief
 from worker.rendering.model_changes import seen_parts
 from worker.rendering.shading import Selection
 from worker.rendering.staging import PlacedModel
@@ -141,10 +141,10 @@ def _displaced(
     items: list[Placed], spec: Displacement, triangles: int, maker: TextureMaker
 ) -> Iterator[Placed]:
     levels = levels_of(spec, triangles)
-    image = functools.cache(lambda: maker(spec.texture, "data"))
+    texture = functools.cache(lambda: relief_of(spec, maker))
 
     def moved(make: Callable[[], Mesh]) -> Mesh:
-        return with_relief(make(), spec, levels, image())
+        return with_relief(make(), spec, levels, texture())
 
     for item in items:
         key = f"{item.key} {levels} {spec.model_dump_json()}"
