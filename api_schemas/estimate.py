@@ -147,19 +147,23 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
     once = 0.0
     for node, placed, found in drawn:
         drawing = found.draws * SECONDS_PER_DRAW + found.pieces * SECONDS_PER_DRAWN_TRIANGLE
-        cost += Cost(tiles * drawing)
-        once += drawing
+        # Of several surfaces on one shape each draws it all, and throws away what is not its.
+        passes = 1 if node.surface_map is None else len(node.surface_map.surfaces)
+        cost += Cost(tiles * passes * drawing)
+        once += passes * drawing
         if found.key not in made:
             made.add(found.key)
             cost += found.making
             cost += Cost(MAPS_OF_A_MATERIAL * SECONDS_TO_COMPILE_A_MAP * found.pictures)
-        shown = node.surface or node.mesh
+        shown = node.surface_map or node.surface or node.mesh
         surfaces = [part for _, part in parts(shown) if isinstance(part, SurfaceSpec)]
         maps = [_maps(surface) for surface in surfaces]
-        for worn in [*maps, _maps(node.displacement)]:
+        among: list[MAPS] = [] if node.surface_map is None else [node.surface_map]
+        for worn in [*maps, among, _maps(node.displacement)]:
             cost += textures.cost(worn)
         own = MAPS_OF_A_MATERIAL * found.pictures * SECONDS_PER_MAP_SAMPLE["anisotropic"]
-        shading = lighting + max([own, *map(_seconds_per_sample, maps)])
+        looks = [own, *map(_seconds_per_sample, maps)]
+        shading = passes * lighting + (sum(looks) if among else max(looks))
         # The parts of one model fill the ball side by side as well as one behind the other.
         covered = math.cbrt(found.draws)
         covered *= coverage(found.reach, placed, camera, width / height)
@@ -167,7 +171,8 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
             covered *= 2  # what is behind its front is shaded too
             cost += Cost(found.pieces * SECONDS_PER_SORTED_TRIANGLE)
         cost += Cost(samples * covered * shading)
-    cost += shadow_maps(scene.lights or [], once)
+    shadows = shadow_maps(scene.lights or [], once)
+    cost += Cost(request.output.frames * shadows.seconds, shadows.bytes)
     # Equal things are made once, one after another, and kept: only the largest counts twice.
     return cost + Cost(bytes=textures.making)
 
