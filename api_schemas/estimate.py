@@ -22,7 +22,7 @@ from api_schemas.coverage import coverage, stand_in
 from api_schemas.families import SurfaceSpec, TextureSpec
 from api_schemas.geometry import IDENTITY, Affine, Vector3, affine
 from api_schemas.lights import LIGHTS_MAX
-from api_schemas.maps import ColorMap, NormalMap, NumberMap
+from api_schemas.maps import TABLE_FILTERS, ColorMap, NormalMap, NumberMap
 from api_schemas.output_cost import samples_of, sampling, tiles_of, writing
 from api_schemas.requests import RenderRequest, Request
 from api_schemas.scene import Node
@@ -36,7 +36,13 @@ SECONDS_PER_MAP_SAMPLE = {
     "bilinear": 1e-8,
     "trilinear": 2e-8,
     "anisotropic": 1.5e-7,
+    "ewa": 6e-7,
+    "ripmap": 1e-7,
+    "summed_area": 5e-7,
 }
+BYTES_PER_TABLE_TEXEL: Mapping[str, int] = {"ripmap": 64, "summed_area": 32}
+BYTES_TO_SUM_A_TEXEL = 96
+SECONDS_PER_STORED_TEXEL = {"box": 2e-8, "kaiser": 5e-7, "ripmap": 1e-7, "summed_area": 2e-7}
 SECONDS_TO_COMPILE_A_MAP = 0.12
 SECONDS_PER_DRAWN_TRIANGLE = 5e-8
 SECONDS_PER_DRAW = 2e-4
@@ -171,8 +177,18 @@ class _WornTextures:
                 self._made.add(picture)
                 picture_cost = _textures(item.texture, self._facts, item.texture.surface_side**2)
                 self.making = max(self.making, picture_cost.bytes)
+                cost += Cost(picture_cost.seconds)
+            form = item.filter if item.filter in TABLE_FILTERS else item.pyramid
+            if (
+                stored := f"{picture} {form} {item.wrap if form != 'box' else ''}"
+            ) not in self._made:
+                self._made.add(stored)
                 texels = _texels_worn(item.texture, self._facts)
-                cost += Cost(picture_cost.seconds, texels * BYTES_PER_KEPT_TEXEL)
+                if form == "summed_area":
+                    texels *= 2 ** item.wrap.count("mirror")
+                    self.making = max(self.making, float(texels * BYTES_TO_SUM_A_TEXEL))
+                kept = BYTES_PER_TABLE_TEXEL.get(form, BYTES_PER_KEPT_TEXEL)
+                cost += Cost(texels * SECONDS_PER_STORED_TEXEL[form], float(texels * kept))
             if (program := f"{picture} {item.filter} {item.wrap}") not in self._made:
                 self._made.add(program)
                 cost += Cost(SECONDS_TO_COMPILE_A_MAP)

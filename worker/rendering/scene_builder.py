@@ -20,7 +20,8 @@ from worker.geometry.mesh import Mesh
 from worker.geometry.tangents import with_tangents
 from worker.geometry.transforms import Matrix, parent_from_node
 from worker.images.image import Image
-from worker.images.pyramids import Cut, keep_coverage, mip_chain
+from worker.images.pyramids import Cut
+from worker.images.stored_form import BOX, StoredForm, stored
 from worker.models.model import Model, Part
 from worker.rendering.cache import ByteCache
 from worker.rendering.model_changes import seen_parts
@@ -171,11 +172,17 @@ class SceneBuilder:
 
     def _shading(self, surface: SurfaceSpec, maker: TextureMaker) -> Shading:
         def texture_of(
-            spec: TextureSpec, meaning: Meaning, *, levels: bool, cut: Cut | None = None
+            spec: TextureSpec,
+            meaning: Meaning,
+            *,
+            levels: bool,
+            cut: Cut | None = None,
+            form: StoredForm = BOX,
         ) -> Texture:
-            cut = cut if levels else None
-            key = (spec.model_dump_json(), meaning, levels, cut)
-            return self._textures.get(key, lambda: _upload(maker(spec, meaning), levels, cut))
+            cut = cut if levels or form.kind == "ripmap" else None
+            form = form if levels or form.is_table else BOX
+            key = (spec.model_dump_json(), meaning, levels, cut, form)
+            return self._textures.get(key, lambda: _upload(maker(spec, meaning), levels, cut, form))
 
         return shade(surface, texture_of)
 
@@ -215,9 +222,7 @@ def _mesh_of(part: Part) -> Mesh:
     return part.mesh
 
 
-def _upload(image: Image, levels: bool, cut: Cut | None) -> tuple[Texture, int]:
-    chain = mip_chain(image.pixels) if levels else [image.pixels]
-    if cut is not None:
-        keep_coverage(chain, cut)
-    texture = Texture.upload(chain, image.meaning)
+def _upload(image: Image, levels: bool, cut: Cut | None, form: StoredForm) -> tuple[Texture, int]:
+    chain = stored(image.pixels, form, levels=levels, cut=cut)
+    texture = Texture.upload(chain, image.meaning, (image.width, image.height))
     return texture, texture.size_bytes

@@ -19,6 +19,7 @@ from api_schemas.language import FAMILIES
 from api_schemas.maps import ColorMap, Map, NormalMap, NumberMap, TextureTransform
 from worker.errors import RenderError
 from worker.images.pyramids import Cut
+from worker.images.stored_form import BOX, StoredForm
 from worker.rendering.chunks import chunk
 from worker.rendering.samplers import Sampling
 from worker.rendering.shading_layout import (
@@ -40,9 +41,15 @@ class TextureSource(Protocol):
     """Where uploaded textures come from."""
 
     def __call__(
-        self, spec: TextureSpec, meaning: Meaning, *, levels: bool, cut: Cut | None = None
+        self,
+        spec: TextureSpec,
+        meaning: Meaning,
+        *,
+        levels: bool,
+        cut: Cut | None = None,
+        form: StoredForm = BOX,
     ) -> Texture:
-        """Return the texture of a spec, with its mip levels if asked for.
+        """Return the texture of a spec, with its mip levels if asked for, or as a table.
 
         With a cut, the levels have as many holes as the texture.
         """
@@ -208,7 +215,8 @@ class _Plan:
         u, v = mapped.wrap
         sampling = Sampling.of((u, v), mapped.filter)
         border = tuple(mapped.border_color) if "border" in (u, v) else (0.0,) * 4
-        texture = self._texture_of(spec, meaning, levels=sampling.levels, cut=cut)
+        form = StoredForm.of(mapped.filter, mapped.pyramid, (u, v), border)
+        texture = self._texture_of(spec, meaning, levels=sampling.levels, cut=cut, form=form)
         picture = Picture(texture, sampling, border)
         if picture not in self.pictures:
             self.pictures.append(picture)

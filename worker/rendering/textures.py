@@ -34,7 +34,7 @@ class TextureFormat:
 
 @dataclass(frozen=True, slots=True)
 class Texture:
-    """A texture that lives in OpenGL."""
+    """A texture that lives in OpenGL, with the size of the picture in it."""
 
     number: int
     width: int
@@ -43,13 +43,19 @@ class Texture:
     size_bytes: int
 
     @classmethod
-    def upload(cls, levels: Sequence[NDArray[np.float32]], meaning: Meaning) -> "Texture":
+    def upload(
+        cls,
+        levels: Sequence[NDArray[np.float32]],
+        meaning: Meaning,
+        size: tuple[int, int] | None = None,
+    ) -> "Texture":
         """Copy a picture and its smaller levels to OpenGL.
 
         Args:
             levels: float32 (height, width, channels) each, level 0 first, row 0 at the top; each
                 side half the one before, rounded down. One level has no smaller ones.
             meaning: What the channels are.
+            size: Width and height of the picture that a table stands for.
 
         Raises:
             RenderError: OpenGL has no room.
@@ -78,8 +84,8 @@ class Texture:
         check("uploading a texture")
         return cls(
             number=number,
-            width=width,
-            height=height,
+            width=size[0] if size else width,
+            height=size[1] if size else height,
             format=TextureFormat(
                 channels=channels,
                 meaning=meaning,

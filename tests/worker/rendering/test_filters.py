@@ -14,12 +14,12 @@ SIDE = 512
 @pytest.fixture
 def level_coded(studio: Studio, monkeypatch: pytest.MonkeyPatch) -> dict[str, object]:
     """A 256 x 256 texture whose every texel is the number of its level."""
-    from worker.rendering import scene_builder  # noqa: PLC0415  needs OpenGL
+    from worker.images import stored_form  # noqa: PLC0415
 
     def numbered(pixels: np.ndarray) -> list[np.ndarray]:
         return [np.full_like(level, number) for number, level in enumerate(mip_chain(pixels))]
 
-    monkeypatch.setattr(scene_builder, "mip_chain", numbered)
+    monkeypatch.setattr(stored_form, "mip_chain", numbered)
     return studio.texture(np.full((256, 256), -1.0))
 
 
