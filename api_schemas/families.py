@@ -38,6 +38,8 @@ class TextureSpec(TechniqueSpec):
 
     meaning: ClassVar[Meaning] = "colour"
     """Whether the result is light (sRGB in a PNG) or numbers (quantised as they are)."""
+    layers: ClassVar[tuple[str, ...]] = ()
+    """What it can tell besides the picture: layers that `output.layers` may name."""
     sized: ClassVar[bool] = False
     """Whether it has a size of its own in pixels; otherwise it is a function on the unit tile."""
 
@@ -51,6 +53,13 @@ class TextureSpec(TechniqueSpec):
 
 class CoordinatesSpec(TechniqueSpec):
     """Says which vector of the surface point a map is looked up with."""
+
+    dimensions: ClassVar[Literal[2, 3]] = 3
+    """Whether it gives a place on a picture, or a place or direction in space."""
+
+
+class LayoutSpec(TechniqueSpec):
+    """Says where on a picture each direction lies."""
 
 
 class SurfaceSpec(TechniqueSpec):

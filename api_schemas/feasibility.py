@@ -9,8 +9,8 @@ from api_schemas.geometry import IDENTITY, Affine, Vector3, affine, cross, lengt
 from api_schemas.lights import DirectionalLight, Light, SpotLight
 from api_schemas.maps import MAPS_MAX, Map
 from api_schemas.model_mesh import ModelMesh
-from api_schemas.output import RenderOutput
-from api_schemas.requests import RenderRequest, Request
+from api_schemas.output import RenderOutput, TextureOutput
+from api_schemas.requests import Request, TextureRequest
 from api_schemas.scene import NODES_MAX, Node
 from api_schemas.textures.image import ImageSpec
 from api_schemas.transforms import MatrixPlacement
@@ -35,8 +35,10 @@ class Obstacle:
 def obstacles(request: Request) -> list[Obstacle]:
     """Return all that stands in the way, in the order of the body; empty when all is well."""
     found = list(_limits(request))
-    if found or not isinstance(request, RenderRequest):
+    if found:
         return found
+    if isinstance(request, TextureRequest):
+        return [*_layer_names(request), *_layers(request.output)]
     found += _camera(request.scene.camera)
     for index, light in enumerate(request.scene.lights or []):
         found += _light(light, f"/scene/lights/{index}")
@@ -82,7 +84,19 @@ def _limits(request: Request) -> Iterator[Obstacle]:
             yield Obstacle("too_many_nodes", "", f"{count} {things}; at most {limit}")
 
 
-def _layers(output: RenderOutput) -> Iterator[Obstacle]:
+def _layer_names(request: TextureRequest) -> Iterator[Obstacle]:
+    texture = request.texture
+    for index, name in enumerate(request.output.layers):
+        if name not in texture.layers:
+            known = ", ".join(texture.layers) or "none"
+            yield Obstacle(
+                "layer_unknown",
+                f"/output/layers/{index}",
+                f"{texture.technique} has no such layer; it has {known}",
+            )
+
+
+def _layers(output: RenderOutput | TextureOutput) -> Iterator[Obstacle]:
     if output.format != "exr" and len(output.layers) > 1:
         yield Obstacle(
             "layers_need_exr",

@@ -1,6 +1,6 @@
 """A job as the API shows it: a request on its way to a picture."""
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import AwareDatetime, Field
 
@@ -28,6 +28,9 @@ class Result(Schema):
     )
     counts: dict[str, Annotated[int, Field(ge=0)]] = Field(
         default={}, description="What was drawn: triangles, and texels of textures."
+    )
+    report: dict[str, Any] = Field(
+        default={}, description="What the technique found out, in its own words and numbers."
     )
     warnings: list[Annotated[str, Field(max_length=1024)]] = Field(
         default=[], description="What in the uploads could not be honoured, and was left out."

@@ -15,9 +15,15 @@ from pydantic import Discriminator, GetCoreSchemaHandler, Tag
 from pydantic_core import core_schema
 from typing_extensions import TypeAliasType
 
-from api_schemas import coordinates, surfaces, textures
+from api_schemas import coordinates, layouts, surfaces, textures
 from api_schemas.base import Color, NonNegative, Number, Schema
-from api_schemas.families import CoordinatesSpec, SurfaceSpec, TechniqueSpec, TextureSpec
+from api_schemas.families import (
+    CoordinatesSpec,
+    LayoutSpec,
+    SurfaceSpec,
+    TechniqueSpec,
+    TextureSpec,
+)
 from api_schemas.maps import ColorMap, Map, NormalMap, NumberMap, ScaledMap
 
 
@@ -49,6 +55,7 @@ def specs_in(folder: ModuleType, family: type[TechniqueSpec]) -> dict[str, type[
 FAMILIES: dict[str, dict[str, type[TechniqueSpec]]] = {
     "textures": specs_in(textures, TextureSpec),
     "coordinates": specs_in(coordinates, CoordinatesSpec),
+    "layouts": specs_in(layouts, LayoutSpec),
     "surfaces": specs_in(surfaces, SurfaceSpec),
 }
 """Every technique there is, by family and name."""
@@ -85,6 +92,7 @@ class _ByTechnique:
 if TYPE_CHECKING:
     Texture: TypeAlias = TextureSpec
     Coordinates: TypeAlias = CoordinatesSpec
+    Layout: TypeAlias = LayoutSpec
     Surface: TypeAlias = SurfaceSpec
     MappableNumber: TypeAlias = float | NumberMap
     MappableNonNegative: TypeAlias = float | NumberMap
@@ -97,6 +105,7 @@ else:
 
     Texture = _one_of("Texture", "textures")
     Coordinates = _one_of("Coordinates", "coordinates")
+    Layout = _one_of("Layout", "layouts")
     Surface = _one_of("Surface", "surfaces")
     MappableNumber = TypeAliasType("MappableNumber", _mappable(Number, NumberMap))
     MappableNonNegative = TypeAliasType("MappableNonNegative", _mappable(NonNegative, NumberMap))
@@ -109,6 +118,7 @@ def _complete() -> None:
         for name in (
             "Texture",
             "Coordinates",
+            "Layout",
             "Surface",
             "MappableNumber",
             "MappableNonNegative",

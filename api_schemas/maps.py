@@ -11,7 +11,7 @@ from api_schemas.base import Angle, Color, Number, Pair, Schema
 
 if TYPE_CHECKING:
     from api_schemas.families import Meaning
-    from api_schemas.language import Coordinates, Texture
+    from api_schemas.language import Coordinates, Layout, Texture
 
 MAPS_MAX = 24
 """Maps on one surface: with eight to spare, what OpenGL lets a shader read."""
@@ -59,6 +59,11 @@ class Map(Schema):
         default={"technique": "uv"},
         validate_default=True,
         description="Where on the texture to look.",
+    )
+    layout: Layout | None = Field(
+        default=None,
+        description="How directions lie on the picture, where the coordinates are a direction. The "
+        "picture's edges then join as the layout has them, whatever wrap says.",
     )
     transform: TextureTransform = Field(
         default=TextureTransform(), description="Moves, turns and repeats the picture."

@@ -30,6 +30,9 @@ Layer = Literal[
     "coverage",
 ]
 
+LayerName = Annotated[str, Field(pattern="^[a-z][a-z0-9_]{0,31}$")]
+"""A layer of a texture; which there are, its technique says."""
+
 MEDIA_TYPES: Mapping[Format, MediaType] = {"png": "image/png", "exr": "image/x-exr"}
 """The media type of each file format."""
 
@@ -59,6 +62,18 @@ class Output(Schema):
         default="none",
         description="How a PNG of colour keeps what is brighter than white: cut off, or rolled off "
         "softly, or like film.",
+    )
+
+
+class TextureOutput(Output):
+    """The same, for textures."""
+
+    layers: Annotated[list[LayerName], Field(max_length=16), UNIQUE_ITEMS] = Field(
+        default=[],
+        json_schema_extra={"uniqueItems": True},
+        description="What is told besides the picture, where the technique has something to tell: "
+        "its own layers, by name. An EXR holds all that are named, as channels; a PNG shows one "
+        "layer instead of the picture.",
     )
 
 

@@ -7,7 +7,7 @@ from pydantic import Field
 from api_schemas.base import Schema
 from api_schemas.language import Texture
 from api_schemas.maps import COLOUR
-from api_schemas.output import Output, RenderOutput
+from api_schemas.output import RenderOutput, TextureOutput
 from api_schemas.scene import Scene
 
 Priority = Literal["interactive", "batch"]
@@ -24,7 +24,7 @@ class TextureRequest(_Request):
     """A texture to be made."""
 
     texture: Annotated[Texture, COLOUR] = Field(description="What the picture shows.")
-    output: Output = Field(default=Output(), description="The file to be made.")
+    output: TextureOutput = Field(default=TextureOutput(), description="The file to be made.")
 
 
 class RenderRequest(_Request):

@@ -116,6 +116,7 @@ OBSTACLE_CODES: Final = (
     "too_many_nodes",
     "too_many_maps",
     "layers_need_exr",
+    "layer_unknown",
     "over_budget",
 )
 

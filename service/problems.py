@@ -43,6 +43,7 @@ TABLE: Final[Mapping[str, tuple[int, str]]] = {
     "too_many_nodes": (409, "Too many textures or scene nodes"),
     "too_many_maps": (409, "Too many maps on one surface"),
     "layers_need_exr": (409, "A PNG shows one layer only"),
+    "layer_unknown": (409, "The technique has no such layer"),
     "over_budget": (409, "The request would take too much time or memory"),
     "sweep_pointer_unknown": (409, "A sweep leads to something that is not there"),
     "sweep_pointers_overlap": (409, "Two axes of a sweep change the same thing"),

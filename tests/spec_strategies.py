@@ -1,6 +1,7 @@
 """Hypothesis strategies read off the published JSON Schema: any body the contract allows."""
 
 import json
+import re
 from typing import Any
 
 from hypothesis import strategies as st
@@ -91,7 +92,12 @@ class _Drawer:
         least = schema.get("minItems", 0)
         nested = levels <= 0 and schema["items"] == {"$ref": "#/$defs/Node"}
         most = least if nested else min(schema.get("maxItems", 2), max(least, 2))
-        return st.lists(self.value(schema["items"], levels), min_size=least, max_size=most)
+        return st.lists(
+            self.value(schema["items"], levels),
+            min_size=least,
+            max_size=most,
+            unique=schema.get("uniqueItems", False),
+        )
 
     def number(self, schema: dict[str, Any], _levels: int) -> st.SearchStrategy[Any]:
         return st.floats(
@@ -108,7 +114,8 @@ class _Drawer:
 
     def string(self, schema: dict[str, Any], _levels: int) -> st.SearchStrategy[Any]:
         if "pattern" in schema:
-            return st.just(ASSET)
+            known = re.fullmatch(schema["pattern"], ASSET)
+            return st.just(ASSET) if known else st.from_regex(schema["pattern"], fullmatch=True)
         return st.text(st.characters(codec="utf-8"), max_size=schema["maxLength"])
 
     def null(self, _schema: dict[str, Any], _levels: int) -> st.SearchStrategy[Any]:

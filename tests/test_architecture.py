@@ -21,6 +21,7 @@ IMPLEMENTATIONS = {
     "textures": "worker/synthesis/{}.py",
     "surfaces": "worker/rendering/shaders/surfaces/{}.glsl",
     "coordinates": "worker/rendering/shaders/coordinates/{}.glsl",
+    "layouts": "worker/layouts/{}.py",
 }
 
 TECHNIQUES = [(family, name) for family, specs in FAMILIES.items() for name in specs]
@@ -75,6 +76,12 @@ def test_the_map_of_the_architecture_is_that_of_the_house() -> None:
 @pytest.mark.parametrize(("family", "technique"), TECHNIQUES)
 def test_a_technique_has_its_implementation(family: str, technique: str) -> None:
     assert (ROOT / IMPLEMENTATIONS[family].format(technique)).is_file()
+
+
+def test_a_layout_is_known_to_numpy_and_to_shaders() -> None:
+    chunks = (ROOT / "worker/rendering/shaders/layouts").glob("*.glsl")
+
+    assert {path.stem for path in chunks} == set(FAMILIES["layouts"])
 
 
 @pytest.mark.parametrize(("family", "technique"), TECHNIQUES)

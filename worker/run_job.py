@@ -5,7 +5,7 @@ This is the executor that the door in `worker.jobs` knows by name and loads in i
 
 import hashlib
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -50,7 +50,7 @@ def run(request: dict[str, Any], out: Path, report: Report) -> dict[str, Any]:
 
     Returns:
         JSON-able facts: media_type, bytes, sha256, width, height, timings in milliseconds, counts,
-        warnings.
+        report, warnings.
 
     Raises:
         WorkerError: The job cannot be done; its code says why.
@@ -59,6 +59,7 @@ def run(request: dict[str, Any], out: Path, report: Report) -> dict[str, Any]:
     width, height = body.output.size
     stages = Stages(report)
     timings, counts = stages.timings, dict[str, int]()
+    found: Mapping[str, Any] = {}
     warnings: tuple[str, ...] = ()
     with stages.stage("find", 0.0, 0.02):
         assets = Path(request["assets"])
@@ -78,12 +79,13 @@ def run(request: dict[str, Any], out: Path, report: Report) -> dict[str, Any]:
         timings["encode_ms"] = round(encoding, 3)
         timings["render_ms"] = round(timings["render_ms"] - encoding, 3)
         timings |= drawn.timings
-        counts, warnings = drawn.counts, drawn.warnings
+        counts, found, warnings = drawn.counts, drawn.report, drawn.warnings
     else:
-        with stages.stage("synthesise", 0.02, 0.85):
-            image = synthesis.synthesize(body.texture, (width, height), pictures.read)
+        with stages.stage("synthesise", 0.02, 0.85) as progress:
+            made = synthesis.outcome(body.texture, (width, height), pictures.read, report=progress)
+        found = made.report
         with stages.stage("encode", 0.85, 0.98):
-            band = {PICTURE: image}
+            band = {PICTURE: made.image} | {name: made.layers[name] for name in body.output.layers}
             media_type = result_file.write([band], body.output, request["digest"], out)
     with stages.stage("hash", 0.98, 1.0), out.open("rb") as file:
         sha256 = hashlib.file_digest(file, "sha256").hexdigest()
@@ -95,6 +97,7 @@ def run(request: dict[str, Any], out: Path, report: Report) -> dict[str, Any]:
         "height": height,
         "timings": timings,
         "counts": counts,
+        "report": dict(found),
         "warnings": list(warnings),
     }
 

@@ -10,6 +10,10 @@ Report = Callable[[float, str], None]
 """Told the share of something that is done, 0..1, and the name of its stage."""
 
 
+def silent(share: float, stage: str) -> None:
+    """Tell nobody."""
+
+
 class Timed(Generic[T]):
     """Passes things on and adds up the time it takes to make them.
 

@@ -13,6 +13,7 @@ class UvSpec(CoordinatesSpec):
 
     source: ClassVar[str] = "Catmull, 1974"
     equation: ClassVar[str] = "(u, v) interpolated perspective-correctly over each triangle"
+    dimensions: ClassVar[Literal[2, 3]] = 2
 
     technique: Literal["uv"]
     set: Annotated[int, Field(ge=0, le=3), WHOLE] = Field(

@@ -179,3 +179,9 @@ def test_a_png_shows_one_layer(file_format, layers, codes):
     request["output"] |= {"format": file_format, "layers": layers}
 
     assert found(RenderRequest.model_validate(request)) == codes
+
+
+def test_a_layer_that_a_texture_does_not_tell_is_named():
+    body = {"texture": {"technique": "perlin"}, "output": {"layers": ["field"]}}
+
+    assert found(TextureRequest.model_validate(body)) == [("layer_unknown", "/output/layers/0")]

@@ -40,14 +40,6 @@ def test_every_technique_tells_its_source_and_describes_every_parameter(family):
         assert undescribed == [], name
 
 
-def test_no_field_is_called_like_a_union_tag():
-    """Pointers are found by walking the input along pydantic's locations, which hold tags too."""
-    tags = {name for family in FAMILIES.values() for name in family}
-    for family in FAMILIES.values():
-        for spec in family.values():
-            assert tags.isdisjoint(spec.model_fields), spec.__name__
-
-
 def test_a_texture_nests_in_a_texture_in_a_surface():
     ramp = {"technique": "ramp", "input": {"technique": "perlin"}, "stops": RED}
     twice = {"technique": "ramp", "input": ramp, "stops": RED}

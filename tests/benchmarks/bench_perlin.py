@@ -15,6 +15,7 @@ from pyfastnoiselite.pyfastnoiselite import FastNoiseLite, FractalType, NoiseTyp
 
 from api_schemas.textures.perlin import PerlinSpec
 from worker.numba_kernel import parallel_kernel, prange
+from worker.stages import silent
 from worker.synthesis.perlin import synthesize
 
 SIZE = 2048
@@ -87,7 +88,7 @@ def with_threads(threads: int, work: Callable[[], object]) -> None:
 
 def picture(spec: PerlinSpec) -> object:
     """One tile."""
-    return synthesize(spec, (SIZE, SIZE), {})
+    return synthesize(spec, (SIZE, SIZE), {}, silent)
 
 
 def fresh_memory() -> None:

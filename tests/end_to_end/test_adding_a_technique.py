@@ -41,9 +41,12 @@ import numpy as np
 
 from api_schemas.textures.stripes import StripesSpec
 from worker.images.image import Image
+from worker.stages import Report
 
 
-def synthesize(spec: StripesSpec, size: tuple[int, int], inputs: Mapping[str, Image]) -> Image:
+def synthesize(
+    spec: StripesSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Report
+) -> Image:
     """Draw bands."""
     width, height = size
     u = (np.arange(width) + 0.5) / width

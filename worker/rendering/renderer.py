@@ -52,12 +52,14 @@ class Rendering:
         counts: triangles and texels.
         timings: Milliseconds, whole after the last band: build_ms, draw_ms, and jit_ms for linking
             programs and their first draws.
+        report: What was found out about the scene while it was built; JSON-able.
         warnings: What uploaded models ask for and do not get.
     """
 
     bands: Iterator[Band]
     counts: dict[str, int]
     timings: dict[str, float]
+    report: dict[str, Any]
     warnings: tuple[str, ...]
 
 
@@ -120,7 +122,7 @@ def render(
     timings = {"build_ms": _milliseconds(time.perf_counter() - start)}
     counts = {"triangles": built.triangles, "texels": built.texels}
     drawn = _bands(engine, placed, lights, output, timings, report)
-    return Rendering(drawn, counts, timings, built.warnings)
+    return Rendering(drawn, counts, timings, {}, built.warnings)
 
 
 def _bands(

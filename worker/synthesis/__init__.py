@@ -2,10 +2,14 @@
 
 Every technique module has
 
-    def synthesize(spec, size: tuple[int, int], inputs: Mapping[str, Image]) -> Image
+    def synthesize(
+        spec, size: tuple[int, int], inputs: Mapping[str, Image], report: Report
+    ) -> Image | Outcome
 
-with size = (width, height) and `inputs` the pictures that the spec's fields hold, by field name,
-made at the same size. It is a pure function: no clock, no state, inputs are never modified.
+with size = (width, height), `inputs` the pictures that the spec's fields hold, by field name,
+made at the same size, and `report` to be told the share that is done and the step, where there are
+steps. It is a pure function: no clock, no state, inputs are never modified. An Outcome is a picture
+with layers beside it, or with something to say of it.
 A module with kernels also has `warm()`, which compiles them. A leading underscore marks pieces
 that techniques share.
 """
@@ -15,11 +19,14 @@ from __future__ import annotations
 import importlib
 import pkgutil
 from collections import Counter
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 from api_schemas.families import Meaning, TextureSpec
+from api_schemas.language import FAMILIES
 from api_schemas.textures.image import ImageSpec
 from api_schemas.walk import meaning_of
+from worker.stages import silent
+from worker.synthesis.outcome import Outcome
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -33,9 +40,27 @@ if TYPE_CHECKING:
 
 
 def synthesize(
-    spec: TextureSpec, size: tuple[int, int], load: Load, meaning: Meaning = "colour"
+    spec: TextureSpec,
+    size: tuple[int, int],
+    load: Load,
+    meaning: Meaning = "colour",
+    report: Report = silent,
 ) -> Image:
     """Make the picture of a texture and of all textures nested in it, at (width, height).
+
+    The same as `outcome`, of which it is the image.
+    """
+    return outcome(spec, size, load, meaning, report).image
+
+
+def outcome(
+    spec: TextureSpec,
+    size: tuple[int, int],
+    load: Load,
+    meaning: Meaning = "colour",
+    report: Report = silent,
+) -> Outcome:
+    """Make the picture of a texture, with its layers and what there is to say of it.
 
     Equal nested textures are made once.
 
@@ -45,24 +70,35 @@ def synthesize(
         load: Gives the picture of an uploaded asset in linear light, at its own size, for a slot
             that is read as colour or as data.
         meaning: Of the slot that the texture itself is in.
+        report: Told the finished part, 0..1, and the technique or its step.
 
     Raises:
-        WorkerError: Whatever `load` raises.
+        WorkerError: Whatever `load` or a technique raises.
     """
     uses = Counter(_keys(spec, meaning))
-    shared: dict[Key, Image] = {}
+    shared: dict[Key, Outcome] = {}
+    done = 0
 
-    def make(spec: TextureSpec, meaning: Meaning) -> Image:
+    def make(spec: TextureSpec, meaning: Meaning) -> Outcome:
+        nonlocal done
         key = _key(spec, meaning)
         if key in shared:
             return shared[key]
-        inputs = {name: make(*slot) for name, slot in _slots(spec, meaning).items()}
+        inputs = {name: make(*slot).image for name, slot in _slots(spec, meaning).items()}
         if isinstance(spec, ImageSpec):
             inputs["asset"] = load(spec, meaning)
-        image = cast("Image", _module(spec.technique).synthesize(spec, size, inputs))
+        before = done
+
+        def told(share: float, step: str) -> None:
+            report((before + share) / len(uses), step)
+
+        told(0.0, spec.technique)
+        made = _module(spec.technique).synthesize(spec, size, inputs, told)
+        done += 1
+        finished = made if isinstance(made, Outcome) else Outcome(made)
         if uses[key] > 1:
-            shared[key] = image
-        return image
+            shared[key] = finished
+        return finished
 
     return make(spec, meaning)
 
@@ -70,7 +106,7 @@ def synthesize(
 def techniques() -> list[str]:
     """Return the names of the techniques in this folder, in alphabetical order."""
     names = (module.name for module in pkgutil.iter_modules(__path__))
-    return sorted(name for name in names if not name.startswith("_"))
+    return sorted(name for name in names if name in FAMILIES["textures"])
 
 
 def warm(report: Report) -> None:

@@ -19,11 +19,14 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from api_schemas.textures.checkerboard import CheckerboardSpec
+    from worker.stages import Report
 
 _BAND_ROWS = 64
 
 
-def synthesize(spec: CheckerboardSpec, size: tuple[int, int], inputs: Mapping[str, Image]) -> Image:
+def synthesize(
+    spec: CheckerboardSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Report
+) -> Image:
     """Average the tile over each pixel of (width, height); the lower left square has colors[0]."""
     width, height = size
     first, second = np.array(spec.colors, np.float32).astype(np.float64)

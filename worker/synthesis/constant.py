@@ -13,11 +13,14 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from api_schemas.textures.constant import ConstantSpec
+    from worker.stages import Report
 
 LARGEST = np.float32(FLOAT32_MAX)
 
 
-def synthesize(spec: ConstantSpec, size: tuple[int, int], inputs: Mapping[str, Image]) -> Image:
+def synthesize(
+    spec: ConstantSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Report
+) -> Image:
     """Fill (width, height) with a colour of 1 to 4 channels; straight alpha is multiplied in."""
     value = spec.value if isinstance(spec.value, list) else [spec.value]
     texel = np.array(value, np.float32)

@@ -29,12 +29,16 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
+    from worker.stages import Report
+
 _SLOPES, _DIRECTIONS = 24, 12
 _SMOOTHEST = 1e-6  # alpha; of a mirror, seven digits are the same
 _GRAZING = 1e-4  # n.v; at 0 itself the integral is a limit
 
 
-def synthesize(spec: DfgSpec, size: tuple[int, int], inputs: Mapping[str, Image]) -> Image:
+def synthesize(
+    spec: DfgSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Report
+) -> Image:
     """Tabulate A, B and A + B over n.v (u) and roughness (v): three channels of data."""
     width, height = size
     pixels = np.empty((height, width, 3), np.float32)

@@ -25,9 +25,12 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from api_schemas.textures.gardner import GardnerSpec
+    from worker.stages import Report
 
 
-def synthesize(spec: GardnerSpec, size: tuple[int, int], inputs: Mapping[str, Image]) -> Image:
+def synthesize(
+    spec: GardnerSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Report
+) -> Image:
     """Average the tile over each pixel of (width, height): one channel of data."""
     width, height = size
     cycles, phases = waves_of(spec)

@@ -24,6 +24,7 @@ import numpy as np
 from api_schemas.textures.gray_scott import GrayScottSpec
 from worker.images.image import Image
 from worker.numba_kernel import kernel, parallel_kernel, prange
+from worker.stages import silent
 from worker.synthesis._counter_hash import uniforms
 from worker.synthesis._resample import resample
 
@@ -34,11 +35,15 @@ if TYPE_CHECKING:
 
     Field = NDArray[np.float32]
 
+    from worker.stages import Report
+
 _DROP_SIDE = 12
 _BLOCK_ROWS = 16
 
 
-def synthesize(spec: GrayScottSpec, size: tuple[int, int], inputs: Mapping[str, Image]) -> Image:
+def synthesize(
+    spec: GrayScottSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Report
+) -> Image:
     """Let the dish react and bring it to (width, height): one channel of data."""
     u, v = react(*initial_dish(spec), spec)
     pixels = (u if spec.chemical == "u" else v)[..., np.newaxis]
@@ -76,7 +81,7 @@ def react(u: Field, v: Field, spec: GrayScottSpec) -> tuple[Field, Field]:
 def warm() -> None:
     """Compile the kernels."""
     spec = GrayScottSpec(technique="gray_scott", size=[16, 16], steps=1)
-    synthesize(spec, (8, 8), {})
+    synthesize(spec, (8, 8), {}, silent)
 
 
 @parallel_kernel

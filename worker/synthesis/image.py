@@ -13,9 +13,12 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from api_schemas.textures.image import ImageSpec
+    from worker.stages import Report
 
 
-def synthesize(spec: ImageSpec, size: tuple[int, int], inputs: Mapping[str, Image]) -> Image:
+def synthesize(
+    spec: ImageSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Report
+) -> Image:
     """Bring `inputs["asset"]` to (width, height); at its own size it stays as it is.
 
     Where it shrinks a pixel is the mean over its area, where it grows texels blend linearly, and

@@ -17,9 +17,12 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from api_schemas.textures.levels import LevelsSpec
+    from worker.stages import Report
 
 
-def synthesize(spec: LevelsSpec, size: tuple[int, int], inputs: Mapping[str, Image]) -> Image:
+def synthesize(
+    spec: LevelsSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Report
+) -> Image:
     """Change every channel of `inputs["input"]` but alpha, whose colour is changed straight.
 
     Below the range the curve goes on as that of the mirrored value. What float32 cannot hold

@@ -16,9 +16,12 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from api_schemas.textures.mix import MixSpec
+    from worker.stages import Report
 
 
-def synthesize(spec: MixSpec, size: tuple[int, int], inputs: Mapping[str, Image]) -> Image:
+def synthesize(
+    spec: MixSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Report
+) -> Image:
     """Blend `inputs["a"]` and `inputs["b"]`; colours with alpha are blended premultiplied."""
     a, b = matched(inputs["a"], inputs["b"])
     if "amount" in inputs:

@@ -20,10 +20,11 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from api_schemas.textures.normal_from_height import NormalFromHeightSpec
+    from worker.stages import Report
 
 
 def synthesize(
-    spec: NormalFromHeightSpec, size: tuple[int, int], inputs: Mapping[str, Image]
+    spec: NormalFromHeightSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Report
 ) -> Image:
     """Return the unit normals of the first channel of `inputs["height"]`: three channels."""
     heights = np.array(inputs["height"].pixels[..., 0])

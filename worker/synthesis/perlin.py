@@ -21,6 +21,7 @@ import numpy as np
 
 from api_schemas.textures.perlin import PerlinSpec
 from worker.images.image import Image
+from worker.stages import silent
 from worker.synthesis._perlin_grid import axis_table, fill_fractal_noise
 from worker.synthesis._perlin_octaves import SHIFT_UNITS, octaves_of
 from worker.synthesis._perlin_points import FADES, GRADIENTS_2D, fill_fractal_noise_at
@@ -31,8 +32,12 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from worker.stages import Report
 
-def synthesize(spec: PerlinSpec, size: tuple[int, int], inputs: Mapping[str, Image]) -> Image:
+
+def synthesize(
+    spec: PerlinSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Report
+) -> Image:
     """Rasterise the tile at (width, height): one channel of data, within 2e-6 of `noise_at`."""
     width, height = size
     pixels = np.empty((height, width), np.float32)
@@ -86,7 +91,7 @@ def noise_at(
 
 def warm() -> None:
     """Compile the kernel of pictures; points are for tests and compile when asked for."""
-    synthesize(PerlinSpec(technique="perlin", frequency=1), (4, 4), {})
+    synthesize(PerlinSpec(technique="perlin", frequency=1), (4, 4), {}, silent)
 
 
 def _scale_and_bias(spec: PerlinSpec) -> tuple[float, float]:

@@ -15,11 +15,14 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from api_schemas.textures.ramp import RampSpec
+    from worker.stages import Report
 
 _INTERPOLATIONS = {"linear": 0, "smooth": 1, "step": 2}
 
 
-def synthesize(spec: RampSpec, size: tuple[int, int], inputs: Mapping[str, Image]) -> Image:
+def synthesize(
+    spec: RampSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Report
+) -> Image:
     """Colour the scalar picture `inputs["input"]`.
 
     Stops count by position; of several at one position the one written last begins there and the

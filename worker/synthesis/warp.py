@@ -15,9 +15,12 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from api_schemas.textures.warp import WarpSpec
+    from worker.stages import Report
 
 
-def synthesize(spec: WarpSpec, size: tuple[int, int], inputs: Mapping[str, Image]) -> Image:
+def synthesize(
+    spec: WarpSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Report
+) -> Image:
     """Look `inputs["input"]` up, wrapped, where `inputs["by"]` points to."""
     pixels = np.empty(inputs["input"].pixels.shape, np.float32)
     by = inputs["by"].pixels

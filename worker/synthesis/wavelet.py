@@ -19,6 +19,7 @@ import numpy as np
 from api_schemas.textures.wavelet import WaveletSpec
 from worker.images.image import Image
 from worker.numba_kernel import parallel_kernel, prange
+from worker.stages import silent
 from worker.synthesis._perlin_octaves import visibility
 from worker.synthesis._wavelet_bands import band
 
@@ -26,6 +27,8 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from numpy.typing import NDArray
+
+    from worker.stages import Report
 
 VARIANCES = {"paper": 0.265, "exact": 0.269936}
 """Of one band with weight 1: as printed, and as the filters give on average."""
@@ -38,7 +41,9 @@ class Blends(NamedTuple):
     weights: NDArray[np.float32]
 
 
-def synthesize(spec: WaveletSpec, size: tuple[int, int], inputs: Mapping[str, Image]) -> Image:
+def synthesize(
+    spec: WaveletSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Report
+) -> Image:
     """Evaluate the noise at the pixel centres of (width, height): one channel of data."""
     width, height = size
     scale, bias = (0.125, 0.5) if spec.range == "unit" else (0.25, 0.0)
@@ -70,7 +75,7 @@ def spline_blends(index: NDArray[np.int64], pixels: int, coefficients: int) -> B
 
 def warm() -> None:
     """Compile the kernels."""
-    synthesize(WaveletSpec(technique="wavelet", frequency=1), (8, 8), {})
+    synthesize(WaveletSpec(technique="wavelet", frequency=1), (8, 8), {}, silent)
 
 
 @parallel_kernel

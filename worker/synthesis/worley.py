@@ -16,12 +16,15 @@ import numpy as np
 from api_schemas.textures.worley import WorleySpec
 from worker.images.image import Image
 from worker.numba_kernel import kernel, parallel_kernel, prange
+from worker.stages import silent
 from worker.synthesis._counter_hash import uniforms
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from numpy.typing import NDArray
+
+    from worker.stages import Report
 
 _METRICS = {"euclidean": 0, "manhattan": 1, "chebyshev": 2}
 _OUTPUTS = {"f1": 0, "f2": 1, "difference": 2}
@@ -39,7 +42,9 @@ class Points(NamedTuple):
     places: NDArray[np.float64]
 
 
-def synthesize(spec: WorleySpec, size: tuple[int, int], inputs: Mapping[str, Image]) -> Image:
+def synthesize(
+    spec: WorleySpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Report
+) -> Image:
     """Measure distances at the pixel centres of (width, height): one channel of data, in cells."""
     width, height = size
     values = distances(spec, np.arange(width), width, np.arange(height)[::-1], height)
@@ -88,7 +93,7 @@ def scatter(spec: WorleySpec) -> Points:
 
 def warm() -> None:
     """Compile the kernel."""
-    synthesize(WorleySpec(technique="worley", frequency=1), (2, 2), {})
+    synthesize(WorleySpec(technique="worley", frequency=1), (2, 2), {}, silent)
 
 
 @parallel_kernel

@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 
 from api_schemas.textures.dfg import DfgSpec
+from worker.stages import silent
 from worker.synthesis import synthesize
 from worker.synthesis.dfg import reflectance
 
 
 def table(size, **spec):
-    return synthesize(DfgSpec(technique="dfg", **spec), size, None).pixels.astype(np.float64)
+    return synthesize(DfgSpec(technique="dfg", **spec), size, {}, silent).pixels.astype(np.float64)
 
 
 @pytest.mark.parametrize(

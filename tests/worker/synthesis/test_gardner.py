@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from api_schemas.textures.gardner import GardnerSpec
+from worker.stages import silent
 from worker.synthesis.gardner import _angles, sum_of_cosines, synthesize, waves_of
 
 # Float32 rounds both factors, products and sums of n terms of at most 1/n
@@ -17,7 +18,7 @@ def spec(**fields):
 
 
 def picture(size, **fields):
-    return synthesize(spec(**fields), size, {}).pixels[..., 0]
+    return synthesize(spec(**fields), size, {}, silent).pixels[..., 0]
 
 
 def test_the_sum_has_the_values_of_the_six_waves_of_t44():

@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from api_schemas.textures.gray_scott import GrayScottSpec
+from worker.stages import silent
 from worker.synthesis.gray_scott import initial_dish, react, synthesize
 
 
@@ -128,8 +129,8 @@ def test_a_picture_is_the_dish_brought_to_its_size():
     fields = spec(size=[64, 32], steps=50)
     dish = react(*initial_dish(fields), fields)[1]
 
-    same = synthesize(fields, (64, 32), {}).pixels[..., 0]
-    small = synthesize(fields, (32, 16), {}).pixels[..., 0]
+    same = synthesize(fields, (64, 32), {}, silent).pixels[..., 0]
+    small = synthesize(fields, (32, 16), {}, silent).pixels[..., 0]
 
     assert same.tobytes() == dish.tobytes()
     assert small == pytest.approx(dish.reshape(16, 2, 32, 2).mean(axis=(1, 3)), abs=1e-7)

@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from worker.images.image import Image
+from worker.stages import silent
 from worker.synthesis.image import synthesize
 
 
@@ -13,7 +14,7 @@ def resized(pixels, size):
     pixels = np.array(pixels, np.float32)
     before = pixels.copy()
     pixels.flags.writeable = False
-    image = synthesize(None, size, {"asset": Image(pixels, "data")})
+    image = synthesize(None, size, {"asset": Image(pixels, "data")}, silent)
     assert pixels.tobytes() == before.tobytes()
     assert image.meaning == "data"
     return image.pixels

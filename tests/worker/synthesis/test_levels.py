@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from api_schemas.textures.constant import ConstantSpec
 from api_schemas.textures.levels import LevelsSpec
 from worker.images.image import Image
+from worker.stages import silent
 from worker.synthesis.levels import synthesize
 
 NUMBERS = st.floats(-(2.0**127), 2.0**127, width=32)
@@ -22,7 +23,7 @@ def levels(values, meaning="data", **fields):
     spec = LevelsSpec(
         technique="levels", input=ConstantSpec(technique="constant", value=0.0), **fields
     )
-    image = synthesize(spec, pixels.shape[1::-1], {"input": Image(pixels, meaning)})
+    image = synthesize(spec, pixels.shape[1::-1], {"input": Image(pixels, meaning)}, silent)
     assert image.meaning == meaning
     assert pixels.tobytes() == before.tobytes()
     return image.pixels[0].squeeze(-1).tolist() if pixels.shape[2] == 1 else image.pixels[0]

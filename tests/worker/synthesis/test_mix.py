@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from api_schemas.textures.constant import ConstantSpec
 from api_schemas.textures.mix import MixSpec
 from worker.images.image import Image
+from worker.stages import silent
 from worker.synthesis._channels import matched
 from worker.synthesis.mix import synthesize
 
@@ -58,7 +59,9 @@ def test_the_mask_is_read_as_data_and_the_pictures_as_their_slot_is(make):
 
 def blended(a, b, amount):
     spec = MixSpec(technique="mix", a=GREY, b=GREY, amount=amount)
-    return synthesize(spec, (1, 1), {"a": image("data", a), "b": image("data", b)}).pixels[0, 0, 0]
+    return synthesize(spec, (1, 1), {"a": image("data", a), "b": image("data", b)}, silent).pixels[
+        0, 0, 0
+    ]
 
 
 @given(a=NUMBERS, b=NUMBERS, amount=st.floats(0, 1))
@@ -109,4 +112,4 @@ def test_channels_are_brought_together(a, b, expected):
 def test_only_data_with_data_is_data(a, b, meaning):
     spec = MixSpec(technique="mix", a=GREY, b=GREY)
 
-    assert synthesize(spec, (1, 1), {"a": image(a, 1), "b": image(b, 1)}).meaning == meaning
+    assert synthesize(spec, (1, 1), {"a": image(a, 1), "b": image(b, 1)}, silent).meaning == meaning

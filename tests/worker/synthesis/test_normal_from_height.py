@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from api_schemas.textures.constant import ConstantSpec
 from api_schemas.textures.normal_from_height import NormalFromHeightSpec
 from worker.images.image import Image
+from worker.stages import silent
 from worker.synthesis.normal_from_height import synthesize
 
 NUMBERS = st.floats(-(2.0**127), 2.0**127, width=32)
@@ -20,7 +21,7 @@ def normals(heights, **fields):
     )
     relief = np.array(heights, np.float32)[..., np.newaxis]
     relief.flags.writeable = False
-    image = synthesize(spec, heights.shape[::-1], {"height": Image(relief, "data")})
+    image = synthesize(spec, heights.shape[::-1], {"height": Image(relief, "data")}, silent)
     assert image.meaning == "data"
     return image.pixels
 

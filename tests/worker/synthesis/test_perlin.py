@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from api_schemas.textures.perlin import PerlinSpec
+from worker.stages import silent
 from worker.synthesis._perlin_grid import axis_table, fill_fractal_noise
 from worker.synthesis._perlin_octaves import octaves_of
 from worker.synthesis._perlin_points import FADES, GRADIENTS_2D, noise3
@@ -22,7 +23,7 @@ def spec(**fields):
 
 
 def picture(size, **fields):
-    return synthesize(spec(**fields), size, {}).pixels[..., 0]
+    return synthesize(spec(**fields), size, {}, silent).pixels[..., 0]
 
 
 def centres(size):

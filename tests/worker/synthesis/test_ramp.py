@@ -3,6 +3,7 @@ import pytest
 
 from api_schemas.language import FAMILIES
 from worker.images.image import Image
+from worker.stages import silent
 from worker.synthesis.ramp import synthesize
 
 RampSpec = FAMILIES["textures"]["ramp"]
@@ -22,7 +23,7 @@ def colours(values, stops, interpolation="linear"):
     scalars = np.float32([values])[..., np.newaxis]
     before = scalars.copy()
     scalars.flags.writeable = False
-    image = synthesize(spec, (len(values), 1), {"input": Image(scalars, "data")})
+    image = synthesize(spec, (len(values), 1), {"input": Image(scalars, "data")}, silent)
     assert (scalars == before).all() or np.isnan(before).any()
     assert image.meaning == "colour"
     return image.pixels[0]

@@ -99,3 +99,13 @@ def test_warming_reports_how_far_it_is():
     assert shares == sorted(shares)
     assert all(0 <= share <= 1 for share in shares)
     assert [name for _, name in reports] == techniques()
+
+
+def test_progress_rises_over_all_textures_of_a_request():
+    told = []
+    body = ramp(ramp({"technique": "perlin"}))
+    synthesize(spec(body), (8, 8), None, report=lambda share, step: told.append((share, step)))
+    shares = [share for share, _ in told]
+    assert [step for _, step in told] == ["perlin", "ramp", "ramp"]
+    assert shares == sorted(shares)
+    assert shares == pytest.approx([0, 1 / 3, 2 / 3])

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from api_schemas.textures.constant import ConstantSpec
 from api_schemas.textures.warp import WarpSpec
 from worker.images.image import Image
+from worker.stages import silent
 from worker.synthesis.warp import synthesize
 
 NUMBERS = st.floats(-(2.0**127), 2.0**127, width=32)
@@ -21,7 +22,7 @@ def warped(texels, by, **fields):
     before = texels.copy(), by.copy()
     texels.flags.writeable = by.flags.writeable = False
     inputs = {"input": Image(texels, "colour"), "by": Image(by, "data")}
-    image = synthesize(spec, texels.shape[1::-1], inputs)
+    image = synthesize(spec, texels.shape[1::-1], inputs, silent)
     assert image.meaning == "colour"
     assert (texels == before[0]).all()
     assert (by == before[1]).all()

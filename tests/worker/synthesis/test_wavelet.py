@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from api_schemas.textures.wavelet import WaveletSpec
+from worker.stages import silent
 from worker.synthesis._wavelet_bands import DOWN, UP, band, downsample, upsample, white_noise
 from worker.synthesis.wavelet import spline_blends, synthesize
 
@@ -11,7 +12,7 @@ from worker.synthesis.wavelet import spline_blends, synthesize
 def noise(size, **fields):
     """The noise with variance 1."""
     spec = WaveletSpec(technique="wavelet", range="signed", **fields)
-    return 4 * synthesize(spec, size, {}).pixels[..., 0].astype(np.float64)
+    return 4 * synthesize(spec, size, {}, silent).pixels[..., 0].astype(np.float64)
 
 
 def test_the_taps_sum_to_one_as_printed():
@@ -123,7 +124,7 @@ def test_bands_finer_than_two_pixels_are_left_out():
 def test_the_unit_range_is_half_a_unit_up():
     spec = WaveletSpec(technique="wavelet", frequency=8)
 
-    unit = synthesize(spec, (64, 64), {}).pixels[..., 0]
+    unit = synthesize(spec, (64, 64), {}, silent).pixels[..., 0]
 
     assert unit == pytest.approx(0.5 + noise((64, 64), frequency=8) / 8, abs=1e-6)
 

@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from api_schemas.textures.worley import WorleySpec
+from worker.stages import silent
 from worker.synthesis.worley import distances, scatter, synthesize
 
 METRICS = ["euclidean", "manhattan", "chebyshev"]
@@ -17,7 +18,7 @@ def spec(**fields):
 
 
 def picture(size, **fields):
-    return synthesize(spec(**fields), size, {}).pixels[..., 0]
+    return synthesize(spec(**fields), size, {}, silent).pixels[..., 0]
 
 
 def all_distances(worley, size, copies):

@@ -1,0 +1,19 @@
+// A vector at a pixel's middle, and its change to the next pixels' middles.
+struct Reach {
+    vec3 place;
+    vec3 across_x;  // to the right
+    vec3 across_y;  // upwards
+};
+
+// Of what was interpolated perspective-correctly. value / w and 1 / w are linear on the screen, so
+// that their differences between pixels are derivatives, and the quotient rule gives those of the
+// value at this very pixel (Heckbert 1989); a plain difference would be one between two pixels.
+Reach reach_of(vec3 value) {
+    float inverse_w = gl_FragCoord.w;
+    vec3 scaled = value * inverse_w;
+    return Reach(
+        value,
+        (dFdx(scaled) - value * dFdx(inverse_w)) / inverse_w,
+        (dFdy(scaled) - value * dFdy(inverse_w)) / inverse_w
+    );
+}
