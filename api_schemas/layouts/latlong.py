@@ -15,9 +15,7 @@ class LatlongSpec(LayoutSpec):
     """
 
     source: ClassVar[str] = "Blinn and Newell, 1976; Hughes et al., 2013, section 20.4"
-    equation: ClassVar[str] = (
-        "+z: (u, v) = (1/2 - atan2(x, z) / 2 pi, 1/2 + asin(y) / pi)"
-    )
+    equation: ClassVar[str] = "+z: (u, v) = (1/2 - atan2(x, z) / 2 pi, 1/2 + asin(y) / pi)"
 
     technique: Literal["latlong"]
     centre: Literal["+z", "+x", "-z", "-x"] = Field(

@@ -12,9 +12,17 @@ _BY_OPACITY = {
 }
 
 
-def surface_sources(layout: ShadingLayout, *, layered: bool) -> tuple[Source, Source]:
-    """Return the vertex and the fragment source that draw a layout, with or without all layers."""
-    fragment = _fragment(layout, layered)
+def surface_sources(
+    layout: ShadingLayout, *, layered: bool, plane: bool = False
+) -> tuple[Source, Source]:
+    """Return the vertex and the fragment source that draw a layout.
+
+    Args:
+        layout: The surface's.
+        layered: Whether all layers are drawn.
+        plane: Whether the mesh is a plane without end.
+    """
+    fragment = _fragment(layout, layered, plane)
     return join(chunk("mesh.vert"), "mesh.vert"), join(fragment, layout.technique)
 
 
@@ -35,9 +43,10 @@ def background_sources(layout: ShadingLayout) -> tuple[Source, Source]:
     return vertex, join("\n".join(lines), "background")
 
 
-def _fragment(layout: ShadingLayout, layered: bool) -> str:
+def _fragment(layout: ShadingLayout, layered: bool, plane: bool) -> str:
     parameters = [*layout.parameters, *([layout.opacity] if layout.opacity else [])]
-    chunks = ["lib/fragment.glsl", f"surfaces/{layout.technique}.glsl"]
+    chunks = [f"lib/{'infinite_plane' if plane else 'fragment'}.glsl"]
+    chunks += [f"surfaces/{layout.technique}.glsl"]
     chunks += [f"coordinates/{lookup.coordinates}.glsl" for lookup in layout.lookups]
     chunks += ["lib/normal_map.glsl"] if layout.normal is not None else []
     chunks += ["lib/opacity.glsl"] if layout.opacity else []
@@ -59,6 +68,8 @@ def _fragment(layout: ShadingLayout, layered: bool) -> str:
         lines.append(_BY_OPACITY[layout.alpha_mode])
     if layered:
         lines.append("    write_layers(point, albedo(surface), color.a);")
+    if plane:
+        lines.append("    if (!on_plane()) discard;")
     return "\n".join([*lines, "}"])
 
 

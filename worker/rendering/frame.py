@@ -42,8 +42,9 @@ class Frame:
         scene: What is drawn.
         lights: Uniforms.
         target: Where the samples go.
-        clip_from_object: float32 (n, 4, 4), by the number of the drawable.
+        clip_from_object: (n, 4, 4), by the number of the drawable.
         eye: As lib/fragment.glsl wants it.
+        size: Of the tile in samples.
         corner: Of the tile in the picture, in samples from the lower left.
         picture: Width and height of the whole picture in pixels.
         supersampling: Samples along each side of a pixel.
@@ -55,8 +56,9 @@ class Frame:
     scene: FlatScene
     lights: dict[str, Any]
     target: Target
-    clip_from_object: NDArray[np.float32]
+    clip_from_object: NDArray[np.float64]
     eye: NDArray[np.float64]
+    size: NDArray[np.int64]
     corner: NDArray[np.float64]
     picture: NDArray[np.float64]
     supersampling: int

@@ -19,6 +19,7 @@ from worker.rendering.chunks import Source
 from worker.rendering.fragment import background_sources, surface_sources
 from worker.rendering.frame import Frame, TraversedProgram
 from worker.rendering.gl_context import GL, GLContext, check, floats
+from worker.rendering.infinite_planes import plane_uniforms, whole_target
 from worker.rendering.layer_uniforms import LayerUniforms
 from worker.rendering.programs import Program, ProgramCache
 from worker.rendering.pyrender_scene import FlatScene, PlacedNode, SurfacePrimitive
@@ -81,8 +82,9 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
             scene=scene,
             lights=lights,
             target=target,
-            clip_from_object=floats(clip_from_world @ scene.world_from_object),
+            clip_from_object=clip_from_world @ scene.world_from_object,
             eye=np.append(backward, 0.0) if view.orthographic else np.array([0.0, 0.0, 0.0, 1.0]),
+            size=np.array(size),
             corner=np.rint((picture - (1 + tile_from_picture[:2, 3]) * size) / 2),
             picture=np.rint(picture / supersampling),
             supersampling=supersampling,
@@ -133,7 +135,10 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
     ) -> Program:
         assert self._frame is not None
         layout, layered = primitive.material.shading.layout, self._frame.target.layered
-        return self._linked((layout, layered), lambda: surface_sources(layout, layered=layered))
+        plane = primitive.mesh.tile is not None
+        return self._linked(
+            (layout, layered, plane), lambda: surface_sources(layout, layered=layered, plane=plane)
+        )
 
     def _bind_lighting(
         self, scene: FlatScene, program: TraversedProgram, node: PlacedNode, flags: int
@@ -152,7 +157,7 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
     ) -> None:
         assert self._frame is not None
         scene, number = self._frame.scene, primitive.number
-        program.set("clip_from_object", self._frame.clip_from_object[number])
+        program.set("clip_from_object", self._clip_from_mesh(program, primitive))
         program.set("eye_from_object", scene.eye_from_object[number])
         program.set("normal_from_object", scene.normal_from_object[number])
         program.set("handedness", -1.0 if primitive.mirrored else 1.0)
@@ -166,7 +171,7 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         start = time.perf_counter()
         primitive.mesh.bind()
         # A mirrored transform turns the winding, but not which side is the outer one.
-        GL.glFrontFace(GL.GL_CW if primitive.mirrored else GL.GL_CCW)
+        GL.glFrontFace(GL.GL_CW if primitive.clockwise else GL.GL_CCW)
         for hidden in primitive.hidden:
             if hidden is None:
                 GL.glDisable(GL.GL_CULL_FACE)
@@ -183,6 +188,20 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
 
     def _read_main_framebuffer(self, scene: Any, flags: int) -> None:
         """Read nothing: the tile is resolved first."""
+
+    def _clip_from_mesh(self, program: Program, primitive: SurfacePrimitive) -> Matrix:
+        """Say where a mesh's vertices go; of a plane without end also where its pixels lie."""
+        assert self._frame is not None
+        clip_from_object: Matrix = self._frame.clip_from_object[primitive.number]
+        tile = primitive.mesh.tile
+        if tile is None or not primitive.hidden:
+            return clip_from_object
+        eye_from_object = self._frame.scene.world_from_object[primitive.number].copy()
+        eye_from_object[:3, 3] -= self._frame.scene.view.world_from_camera[:3, 3]
+        places = plane_uniforms(tile, clip_from_object, eye_from_object, self._frame.size)
+        for name, value in places.items():
+            program.set(name, value)
+        return whole_target(tile)
 
     def _begin_blending(self) -> None:
         """Let colours, premultiplied, lie over what is there; depth is asked but not changed."""

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from worker.geometry.transforms import Matrix, normal_matrix
 from worker.rendering.draw_order import back_to_front, nearness
 from worker.rendering.gl_context import GL, floats
+from worker.rendering.infinite_planes import eye_side
 from worker.rendering.shading import Shading
 from worker.rendering.vertex_arrays import VertexArray
 
@@ -72,6 +73,7 @@ class SurfacePrimitive(pyrender.Primitive):  # type: ignore[misc]
         mesh: What is drawn.
         number: Its place among the drawables.
         mirrored: Whether its transform turns the winding of triangles.
+        clockwise: Whether the outer sides of triangles are wound clockwise on the screen.
         hidden: Which sides are left out in each pass: outer, inner, or none (None).
         elements: Its triangles, lines or points from back to front, where that matters.
     """
@@ -86,6 +88,7 @@ class SurfacePrimitive(pyrender.Primitive):  # type: ignore[misc]
         self.mesh = drawable.mesh
         self.number = number
         self.mirrored = mirrored
+        self.clockwise = mirrored
         self.hidden = (GL.GL_BACK,)
         self.elements = None
         blended = drawable.shading.layout.alpha_mode == "blend"
@@ -103,6 +106,15 @@ class SurfacePrimitive(pyrender.Primitive):  # type: ignore[misc]
                 self.hidden = (None,)
             towards_eye = drawable.world_from_object[:3, :3].T @ view.world_from_camera[:3, 2]
             self.elements = back_to_front(self.mesh.positions, self.mesh.elements, towards_eye)
+        if self.mesh.tile is not None:
+            side = eye_side(
+                self.mesh.tile,
+                drawable.world_from_object,
+                view.world_from_camera,
+                orthographic=view.orthographic,
+            )
+            self.clockwise = side < 0
+            self.hidden = self.hidden if side else ()
 
 
 class PlacedNode(pyrender.Node):  # type: ignore[misc]

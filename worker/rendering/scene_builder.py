@@ -124,11 +124,14 @@ class SceneBuilder:
             if key not in worn:
                 worn[key] = self._shading(item.surface, maker), len(worn) + 1
             drawables.append(Drawable(mesh, worn[key][0], item.world_from_object, worn[key][1]))
+        endless = any(mesh.tile is not None for mesh in kept)
+        bounded = any(mesh.tile is None for mesh in kept)
         vertices = (
             (mesh.positions, item.world_from_object)
             for item, mesh in zip(placed, kept, strict=True)
+            if mesh.tile is None or not bounded  # planes without end are framed only alone
         )
-        view = view_of(scene.camera, models, vertices, aspect)
+        view = view_of(scene.camera, models, vertices, aspect, endless=endless)
         lights, left_out = lights_of(scene.lights, models, view.world_from_camera)
         background = self._background(scene.background, maker)
         shadings = [drawable.shading for drawable in drawables]

@@ -7,11 +7,11 @@
 // between two pixels.
 Footprint coordinates_uv(SurfacePoint point, int set) {
     vec2 uv = point.uv[set];
-    float inverse_w = gl_FragCoord.w;
-    vec2 scaled = uv * inverse_w;
+    float inverse = inverse_w();
+    vec2 scaled = uv * inverse;
     return Footprint(
         uv,
-        (dFdx(scaled) - uv * dFdx(inverse_w)) / inverse_w,
-        (dFdy(scaled) - uv * dFdy(inverse_w)) / inverse_w
+        (dFdx(scaled) - uv * dFdx(inverse)) / inverse,
+        (dFdy(scaled) - uv * dFdy(inverse)) / inverse
     );
 }

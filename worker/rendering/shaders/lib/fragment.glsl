@@ -10,6 +10,10 @@ in vec2 vertex_uv_2;
 in vec2 vertex_uv_3;
 uniform vec4 eye;  // (0, 0, 0, 1), or the direction towards an orthographic camera and 0
 
+float inverse_w() {
+    return gl_FragCoord.w;
+}
+
 // Both sides of a surface are lit: the normal is turned to the side that is seen.
 SurfacePoint surface_point() {
     vec3 outer = vertex_normal == vec3(0.0) ? vec3(0.0) : normalize(vertex_normal);

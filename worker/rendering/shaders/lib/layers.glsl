@@ -1,4 +1,5 @@
-#include "lib/fragment.glsl"
+#include "lib/picture.glsl"
+#include "lib/surface_point.glsl"
 
 // What is known of a thing beside its light; worker/rendering/packing.py has the same table.
 layout(location = 1) out vec4 layer_albedo;            // premultiplied; a = coverage

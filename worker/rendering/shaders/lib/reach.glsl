@@ -1,3 +1,5 @@
+#include "lib/surface_point.glsl"
+
 // A vector at a pixel's middle, and its change to the next pixels' middles.
 struct Reach {
     vec3 place;
@@ -9,11 +11,11 @@ struct Reach {
 // that their differences between pixels are derivatives, and the quotient rule gives those of the
 // value at this very pixel (Heckbert 1989); a plain difference would be one between two pixels.
 Reach reach_of(vec3 value) {
-    float inverse_w = gl_FragCoord.w;
-    vec3 scaled = value * inverse_w;
+    float inverse = inverse_w();
+    vec3 scaled = value * inverse;
     return Reach(
         value,
-        (dFdx(scaled) - value * dFdx(inverse_w)) / inverse_w,
-        (dFdy(scaled) - value * dFdy(inverse_w)) / inverse_w
+        (dFdx(scaled) - value * dFdx(inverse)) / inverse,
+        (dFdy(scaled) - value * dFdy(inverse)) / inverse
     );
 }

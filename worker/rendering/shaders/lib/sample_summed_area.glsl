@@ -16,16 +16,17 @@ Interval interval(float start, float end, int count, bool repeats) {
     return Interval(ivec2(texel), ends - texel, rounds.y - rounds.x);
 }
 
-// The sum over an interval of a row of sums. Near sums are subtracted first: what is left is small
-// enough to keep its digits.
-vec4 row_sum(sampler2D table, Interval columns, int row, int last) {
-    vec4 start = texelFetch(table, ivec2(columns.texel.x, row), 0);
-    vec4 end = texelFetch(table, ivec2(columns.texel.y, row), 0);
-    vec4 after_start = texelFetch(table, ivec2(columns.texel.x + 1, row), 0);
-    vec4 after_end = texelFetch(table, ivec2(columns.texel.y + 1, row), 0);
-    vec4 whole = texelFetch(table, ivec2(last, row), 0);
-    return (end - start) + columns.part.y * (after_end - end)
-        - columns.part.x * (after_start - start) + columns.pictures * whole;
+// The sum of what lies between two rows of corners, over an interval. Near sums are subtracted
+// first, which is exact; what is left is small enough to keep its digits.
+vec4 between(sampler2D table, Interval columns, int row, int upper, int last) {
+    vec4 sums[5];
+    int x[5] = int[5](
+        columns.texel.x, columns.texel.x + 1, columns.texel.y, columns.texel.y + 1, last
+    );
+    for (int i = 0; i < 5; i++)
+        sums[i] = texelFetch(table, ivec2(x[i], upper), 0) - texelFetch(table, ivec2(x[i], row), 0);
+    return (sums[2] - sums[0]) + columns.part.y * (sums[3] - sums[2])
+        - columns.part.x * (sums[1] - sums[0]) + columns.pictures * sums[4];
 }
 
 // The mean of the rectangle round the pixel, texels taken as squares of one value: the difference
@@ -45,13 +46,11 @@ vec4 sample_summed_area(sampler2D table, Lookup at) {
     vec4 sum = vec4(0.0);
     for (int part = 0; part < 2; part++) {  // rounded sums, and what rounding took away
         int first = part * (counts.y + 1);
-        vec4 start = row_sum(table, columns, first + rows.texel.x, counts.x);
-        vec4 end = row_sum(table, columns, first + rows.texel.y, counts.x);
-        vec4 after_start = row_sum(table, columns, first + rows.texel.x + 1, counts.x);
-        vec4 after_end = row_sum(table, columns, first + rows.texel.y + 1, counts.x);
-        vec4 whole = row_sum(table, columns, first + counts.y, counts.x);
-        sum += (end - start) + rows.part.y * (after_end - end)
-            - rows.part.x * (after_start - start) + rows.pictures * whole;
+        int start = first + rows.texel.x, end = first + rows.texel.y;
+        sum += between(table, columns, start, end, counts.x)
+            + rows.part.y * between(table, columns, end, end + 1, counts.x)
+            - rows.part.x * between(table, columns, start, start + 1, counts.x)
+            + rows.pictures * between(table, columns, first, first + counts.y, counts.x);
     }
     return texelFetch(table, ivec2(counts.x + 1, 0), 0) + sum / (reach.x * reach.y);
 }

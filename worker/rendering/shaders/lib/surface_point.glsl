@@ -8,3 +8,6 @@ struct SurfacePoint {
     vec4 color;     // the mesh's, white if it has none
     vec2 uv[4];     // the mesh's texture coordinates, each set
 };
+
+// 1 / w where the surface is: linear on the screen, so that its differences are derivatives.
+float inverse_w();

@@ -1,0 +1,50 @@
+#include "lib/picture.glsl"
+#include "lib/surface_point.glsl"
+in vec3 vertex_normal;
+in vec4 vertex_tangent;
+in vec4 vertex_color;
+uniform vec4 eye;  // (0, 0, 0, 1), or the direction towards an orthographic camera and 0
+// Of (x, y, 1) in samples from an origin near the horizon; worker/rendering/infinite_planes.py says why these are linear.
+uniform vec2 pixel_origin;
+uniform mat3 plane_from_pixel;     // to u / w, v / w, 1 / w
+uniform mat3 position_from_pixel;  // to the position over w
+uniform vec3 depth_from_pixel;     // to the depth: 1 at the near plane, 0 at the far one
+
+const float HORIZON = 1e-15;          // 1 / w of what is as far away as numbers reach
+const float BEYOND_FAR_PLANE = 1e-20;  // depths below any that what ends there has
+
+vec3 pixel() {
+    return vec3(gl_FragCoord.xy - pixel_origin, 1.0);
+}
+
+float inverse_w() {
+    float inverse = (plane_from_pixel * pixel()).z;
+    return abs(inverse) < HORIZON ? HORIZON : inverse;
+}
+
+// Where the ray of this pixel meets the plane; behind the eye if inverse_w() is below 0.
+SurfacePoint surface_point() {
+    float inverse = inverse_w();
+    vec3 position = position_from_pixel * pixel() / inverse;
+    vec2 uv = (plane_from_pixel * pixel()).xy / inverse;
+    vec3 outer = normalize(vertex_normal);
+    vec3 normal = gl_FrontFacing ? outer : -outer;
+    return SurfacePoint(
+        position,
+        normal,
+        normal,
+        normalize(eye.xyz - eye.w * position),
+        vertex_tangent,
+        vertex_color,
+        vec2[4](uv, uv, uv, uv)
+    );
+}
+
+// Whether the pixel shows the plane, and how far away: beyond the far plane depths go on below all
+// others, nearer ones above farther ones in parallel views too.
+bool on_plane() {
+    float inverse = inverse_w();
+    float depth = dot(depth_from_pixel, pixel());
+    gl_FragDepth = depth > 0.0 ? depth : BEYOND_FAR_PLANE * inverse / (1.0 - depth);
+    return inverse > 0.0 && depth <= 1.0;
+}
