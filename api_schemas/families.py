@@ -15,8 +15,10 @@ from api_schemas.cost import Cost
 if TYPE_CHECKING:
     from api_schemas.language import MappableNonNegative
     from api_schemas.maps import NormalMap
+    from api_schemas.relief import BumpMap, HeightMap, ParallaxMap, TangentFrames
 
 Meaning = Literal["colour", "data"]
+Wrap = Literal["repeat", "mirror", "clamp", "border"]
 AlphaMode = Literal["opaque", "mask", "blend"]
 
 
@@ -43,6 +45,11 @@ class TextureSpec(TechniqueSpec):
     sized: ClassVar[bool] = False
     """Whether it has a size of its own in pixels; otherwise it is a function on the unit tile."""
 
+    solid: ClassVar[bool] = False
+    """Whether it also fills space, where the textures nested in it do."""
+    pointwise: ClassVar[bool] = False
+    """Whether each pixel follows from the same pixel of its inputs alone: so it is solid, too."""
+
     surface_side: ClassVar[int] = 1024
     """Pixels along each side of its picture, where a surface wears it."""
 
@@ -61,9 +68,15 @@ class CoordinatesSpec(TechniqueSpec):
 class LayoutSpec(TechniqueSpec):
     """Says where on a picture each direction lies."""
 
+    joins: ClassVar[tuple[Wrap, Wrap]] = ("clamp", "clamp")
+    """What lies beyond the picture along u and v."""
+
 
 class SurfaceSpec(TechniqueSpec):
     """Says how a surface sends light to the eye, and how much of what is behind it is seen."""
+
+    needs_tangents: ClassVar[bool] = False
+    """Whether it looks different along u and along v, so that the mesh's tangents matter."""
 
     opacity: MappableNonNegative = Field(
         default=1.0,
@@ -82,7 +95,23 @@ class SurfaceSpec(TechniqueSpec):
         default=True, description="Whether the inner side is drawn as well as the outer one."
     )
     normal: NormalMap | None = Field(
-        default=None, description="Tilts the surface in fine detail: a tangent-space normal map."
+        default=None, description="Tilts the surface in fine detail: a map of normals."
+    )
+    bump: BumpMap | None = Field(
+        default=None, description="Tilts what is there further, by two numbers for each texel."
+    )
+    height: HeightMap | None = Field(
+        default=None, description="Tilts what is there further, as the slopes of a relief do."
+    )
+    parallax: ParallaxMap | None = Field(
+        default=None,
+        description="Lets the eye look into a relief: every other map is read where the ray ends.",
+    )
+    tangents: TangentFrames = Field(
+        default="mikktspace",
+        description="Which directions normal and bump maps tilt along: those that bakers use, the "
+        "mean of the triangles round each corner, or the parallels and meridians of a globe round "
+        "the y axis. They follow the coordinates of the normal map, without one the bump map's.",
     )
 
     def filled(self) -> Self:

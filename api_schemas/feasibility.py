@@ -76,6 +76,13 @@ def _limits(request: Request) -> Iterator[Obstacle]:
                 yield Obstacle(
                     "too_many_maps", pointer, f"{maps} maps on one surface; at most {MAPS_MAX}"
                 )
+        if isinstance(part, Map) and part.layout and part.coordinates.dimensions != 3:
+            yield Obstacle(
+                "layout_without_direction",
+                f"{pointer}/layout",
+                f"{part.coordinates.technique} coordinates are a place on the picture already; "
+                "a layout needs a direction",
+            )
     for count, limit, things in (
         (textures, TEXTURES_MAX, "textures"),
         (nodes, NODES_MAX, "scene nodes"),

@@ -25,6 +25,14 @@ from api_schemas.families import (
     TextureSpec,
 )
 from api_schemas.maps import ColorMap, Map, NormalMap, NumberMap, ScaledMap
+from api_schemas.relief import (
+    BumpMap,
+    Displacement,
+    HeightMap,
+    ParallaxMap,
+    ReliefMap,
+    TangentFrames,
+)
 
 
 def specs_in(folder: ModuleType, family: type[TechniqueSpec]) -> dict[str, type[TechniqueSpec]]:
@@ -63,10 +71,10 @@ FAMILIES: dict[str, dict[str, type[TechniqueSpec]]] = {
 
 def _json_type(value: object) -> str:
     """Choose by JSON type, so that one mistake gives one problem at one place."""
-    return "map" if isinstance(value, dict | Map) else "value"
+    return "map" if isinstance(value, dict | Schema) else "value"
 
 
-def _mappable(value: Any, mapped: type[Map]) -> Any:
+def _mappable(value: Any, mapped: Any) -> Any:
     return Annotated[
         Annotated[value, Tag("value")] | Annotated[mapped, Tag("map")], Discriminator(_json_type)
     ]
@@ -94,6 +102,7 @@ if TYPE_CHECKING:
     Coordinates: TypeAlias = CoordinatesSpec
     Layout: TypeAlias = LayoutSpec
     Surface: TypeAlias = SurfaceSpec
+    Operand: TypeAlias = float | TextureSpec
     MappableNumber: TypeAlias = float | NumberMap
     MappableNonNegative: TypeAlias = float | NumberMap
     MappableColor: TypeAlias = list[float] | ColorMap
@@ -107,6 +116,7 @@ else:
     Coordinates = _one_of("Coordinates", "coordinates")
     Layout = _one_of("Layout", "layouts")
     Surface = _one_of("Surface", "surfaces")
+    Operand = TypeAliasType("Operand", _mappable(Number, Texture))
     MappableNumber = TypeAliasType("MappableNumber", _mappable(Number, NumberMap))
     MappableNonNegative = TypeAliasType("MappableNonNegative", _mappable(NonNegative, NumberMap))
     MappableColor = TypeAliasType("MappableColor", _mappable(Color, ColorMap))
@@ -120,14 +130,16 @@ def _complete() -> None:
             "Coordinates",
             "Layout",
             "Surface",
+            "Operand",
             "MappableNumber",
             "MappableNonNegative",
             "MappableColor",
         )
-    } | {"NormalMap": NormalMap}
+    } | {model.__name__: model for model in (NormalMap, BumpMap, HeightMap, ParallaxMap)}
+    names["TangentFrames"] = TangentFrames
     members = [spec for family in FAMILIES.values() for spec in family.values()]
     models: list[type[Schema]] = [Map, ScaledMap, ColorMap, NumberMap, NormalMap]
-    models += [SurfaceSpec, *members]
+    models += [ReliefMap, BumpMap, HeightMap, ParallaxMap, Displacement, SurfaceSpec, *members]
     for model in models:
         module = importlib.import_module(model.__module__)
         model.model_rebuild(force=True, _types_namespace={**vars(module), **names})

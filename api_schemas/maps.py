@@ -8,15 +8,14 @@ from typing import TYPE_CHECKING, Annotated, Final, Literal, get_args
 from pydantic import Field
 
 from api_schemas.base import Angle, Color, Number, Pair, Schema
+from api_schemas.families import Meaning, Wrap
 
 if TYPE_CHECKING:
-    from api_schemas.families import Meaning
     from api_schemas.language import Coordinates, Layout, Texture
 
 MAPS_MAX = 24
 """Maps on one surface: with eight to spare, what OpenGL lets a shader read."""
 
-Wrap = Literal["repeat", "mirror", "clamp", "border"]
 Filter = Literal["nearest", "bilinear", "trilinear", "anisotropic", "ewa", "ripmap", "summed_area"]
 Pyramid = Literal["box", "kaiser"]
 TableFilter = Literal["ripmap", "summed_area"]
@@ -121,7 +120,8 @@ class NumberMap(ScaledMap):
 class NormalMap(Map):
     """A texture in the place of a normal: x, y, z along tangent, bitangent and normal.
 
-    The tangent points where u grows, the bitangent where v grows.
+    The tangent points where u grows, the bitangent where v grows; in object space x, y, z are those
+    of the shape itself.
     """
 
     texture: Annotated[Texture, DATA] = Field(description="The picture, of any technique.")
@@ -135,4 +135,9 @@ class NormalMap(Map):
     range: Literal["unit", "signed"] = Field(
         default="unit",
         description="Whether the picture holds 0..1, with 0.5 for none, or the numbers themselves.",
+    )
+    space: Literal["tangent", "object"] = Field(
+        default="tangent",
+        description="Whether the normals lean from the surface or are the shape's own, which need "
+        "no directions of u and v and ignore how the picture is turned.",
     )

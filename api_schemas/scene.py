@@ -11,6 +11,7 @@ from api_schemas.camera import Camera
 from api_schemas.language import MappableColor, Surface
 from api_schemas.lights import LIGHTS_MAX, Light
 from api_schemas.meshes import Mesh
+from api_schemas.relief import Displacement
 from api_schemas.transforms import Placement, Transform
 
 NODES_MAX = 1024
@@ -31,6 +32,9 @@ class Node(Schema):
         default=None,
         description="How the shape reflects light; without one a model has its own materials, and "
         "everything else is matt grey Phong.",
+    )
+    displacement: Displacement | None = Field(
+        default=None, description="A relief that moves the shape's own points, outlines included."
     )
     children: Annotated[list[Node], Field(max_length=NODES_MAX)] = Field(
         default=[], description="Nodes that move with this one."

@@ -42,6 +42,7 @@ TABLE: Final[Mapping[str, tuple[int, str]]] = {
     "nesting_too_deep": (409, "Too many levels within each other"),
     "too_many_nodes": (409, "Too many textures or scene nodes"),
     "too_many_maps": (409, "Too many maps on one surface"),
+    "layout_without_direction": (409, "A layout needs coordinates that are a direction"),
     "layers_need_exr": (409, "A PNG shows one layer only"),
     "layer_unknown": (409, "The technique has no such layer"),
     "over_budget": (409, "The request would take too much time or memory"),

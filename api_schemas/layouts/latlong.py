@@ -4,7 +4,7 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
-from api_schemas.families import LayoutSpec
+from api_schemas.families import LayoutSpec, Wrap
 
 
 class LatlongSpec(LayoutSpec):
@@ -16,6 +16,8 @@ class LatlongSpec(LayoutSpec):
 
     source: ClassVar[str] = "Blinn and Newell, 1976; Hughes et al., 2013, section 20.4"
     equation: ClassVar[str] = "+z: (u, v) = (1/2 - atan2(x, z) / 2 pi, 1/2 + asin(y) / pi)"
+
+    joins: ClassVar[tuple[Wrap, Wrap]] = ("repeat", "clamp")
 
     technique: Literal["latlong"]
     centre: Literal["+z", "+x", "-z", "-x"] = Field(

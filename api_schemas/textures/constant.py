@@ -21,6 +21,8 @@ class ConstantSpec(TextureSpec):
     equation: ClassVar[str] = "f(u, v) = value"
 
     surface_side: ClassVar[int] = 1
+    solid: ClassVar[bool] = True
+    pointwise: ClassVar[bool] = True
 
     technique: Literal["constant"]
     value: Annotated[

@@ -23,6 +23,8 @@ class LevelsSpec(TextureSpec):
     equation: ClassVar[str] = (
         "out0 + (out1 - out0) ((input - in0) / (in1 - in0))^(1 / gamma), alpha stays"
     )
+    solid: ClassVar[bool] = True
+    pointwise: ClassVar[bool] = True
 
     technique: Literal["levels"]
     input: Texture = Field(description="The texture whose values are changed, each channel alike.")

@@ -25,6 +25,8 @@ class MixSpec(TextureSpec):
 
     source: ClassVar[str] = "Porter and Duff, 1984; Cook, 1984"
     equation: ClassVar[str] = "(1 - amount) a + amount b"
+    solid: ClassVar[bool] = True
+    pointwise: ClassVar[bool] = True
 
     technique: Literal["mix"]
     a: Texture = Field(description="What is seen where the amount is 0.")

@@ -26,6 +26,8 @@ class RampSpec(TextureSpec):
 
     source: ClassVar[str] = "Perlin, 1985 (colour splines)"
     equation: ClassVar[str] = "color(input(u, v))"
+    solid: ClassVar[bool] = True
+    pointwise: ClassVar[bool] = True
 
     technique: Literal["ramp"]
     input: Annotated[Texture, DATA] = Field(

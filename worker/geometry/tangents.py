@@ -15,12 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from worker.geometry.mesh import Mesh
+from worker.geometry.topology import Floats, Indices, following, shared_edges, sums, weld
 
-Floats = NDArray[np.float64]
-Indices = NDArray[np.int64]
 Flags = NDArray[np.bool_]
 _NO_AREA = float(np.finfo(np.float32).tiny)
-_CORNERS = np.arange(3)
 
 
 def with_tangents(mesh: Mesh, uv_set: int = 0) -> Mesh:
@@ -35,14 +33,14 @@ def with_tangents(mesh: Mesh, uv_set: int = 0) -> Mesh:
         return mesh
     corners = mesh.triangles.astype(np.int64)
     charts = _Charts.of(mesh.positions, mesh.uv(uv_set), corners)
-    welded = _weld(np.hstack([mesh.positions, mesh.normals, mesh.uv(uv_set)]))[corners]
+    welded = weld(np.hstack([mesh.positions, mesh.normals, mesh.uv(uv_set)]))[corners]
     groups, mirrored = _groups(mesh.positions[corners], welded, charts)
-    sums = _sums(mesh, corners, charts, groups)
+    totals = _sums(mesh, corners, charts, groups)
     vertex_and_group = corners.ravel() * (groups.max() + 1) + groups
     kept, chosen, triangles = np.unique(vertex_and_group, return_index=True, return_inverse=True)
     vertices = kept // (groups.max() + 1)
     tangents = np.empty((len(kept), 4))
-    tangents[:, :3] = _or_perpendicular(sums[groups[chosen]], mesh.normals[vertices])
+    tangents[:, :3] = or_perpendicular(totals[groups[chosen]], mesh.normals[vertices])
     tangents[:, 3] = np.where(mirrored.ravel()[chosen], -1.0, 1.0)
     return replace(
         mesh,
@@ -98,57 +96,21 @@ class _Charts:
         return cls(along_u * factor[:, None], usable, mirrored)
 
 
-def _weld(rows: Floats) -> Indices:
-    """Number rows so that equal rows have equal numbers."""
-    plain = np.ascontiguousarray(rows + 0.0)  # minus zero is zero
-    as_bytes = plain.view(np.dtype((np.void, plain.itemsize * plain.shape[1])))[:, 0]
-    return np.unique(as_bytes, return_inverse=True)[1].astype(np.int64)
-
-
 def _groups(places: Floats, welded: Indices, charts: _Charts) -> tuple[Indices, Flags]:
     """Number the groups of corners, and say of each corner whether its chart counts as mirrored.
 
     A triangle without a direction follows its neighbours: it holds their groups together.
     """
-    following = np.roll(places, -1, axis=1)
-    solid = (places != following).any(axis=2).all(axis=1)
-    near, far = _shared_edges(welded, np.flatnonzero(solid))
+    solid = (places != np.roll(places, -1, axis=1)).any(axis=2).all(axis=1)
+    near, far = shared_edges(welded, np.flatnonzero(solid))
     mirrored = _spread(charts, near // 3, far // 3)
     alike = mirrored[near // 3] == mirrored[far // 3]
     near, far = near[alike], far[alike]
     # An edge's start in one triangle is its end in the other.
-    starts = np.concatenate([near, _next(near)])
-    ends = np.concatenate([_next(far), far])
+    starts = np.concatenate([near, following(near)])
+    ends = np.concatenate([following(far), far])
     groups = _components(welded.size, starts, ends)
     return groups, np.repeat(mirrored[:, None], 3, axis=1)
-
-
-def _next(corners: Indices) -> Indices:
-    return corners - corners % 3 + (corners + 1) % 3
-
-
-def _shared_edges(welded: Indices, solid: Indices) -> tuple[Indices, Indices]:
-    """Pair edges that two triangles run along in opposite directions.
-
-    Where more than two share one, the first in one direction is paired with the first in the other.
-
-    Returns:
-        The corners at which the paired edges begin, as triangle * 3 + corner.
-    """
-    corners = (solid[:, None] * 3 + _CORNERS).ravel()
-    start, end = welded.ravel()[corners], welded.ravel()[_next(corners)]
-    low, high = np.minimum(start, end), np.maximum(start, end)
-    edge = np.unique(low * (welded.max() + 1) + high, return_inverse=True)[1]
-    forward, backward = np.flatnonzero(start < end), np.flatnonzero(start > end)
-    count = np.bincount(edge[forward], minlength=len(edge))
-    first = np.cumsum(count) - count
-    forward = forward[np.argsort(edge[forward], kind="stable")]
-    backward = backward[np.argsort(edge[backward], kind="stable")]
-    edges = edge[backward]
-    rank = np.arange(len(edges)) - np.searchsorted(edges, edges)
-    paired = rank < count[edges]
-    partner = forward[first[edges[paired]] + rank[paired]]
-    return corners[partner], corners[backward[paired]]
 
 
 def _spread(charts: _Charts, one: Indices, other: Indices) -> Flags:
@@ -183,32 +145,29 @@ def _components(count: int, starts: Indices, ends: Indices) -> Indices:
 def _sums(mesh: Mesh, corners: Indices, charts: _Charts, groups: Indices) -> Floats:
     """Add up each group's tangents in the plane of the normal, weighted by the angle there."""
     places, normals = mesh.positions[corners], mesh.normals[corners]
-    tangents = _unit(_across(np.repeat(charts.tangents[:, None], 3, axis=1), normals))
-    after = _unit(_across(np.roll(places, -1, axis=1) - places, normals))
-    before = _unit(_across(np.roll(places, 1, axis=1) - places, normals))
+    tangents = unit(across(np.repeat(charts.tangents[:, None], 3, axis=1), normals))
+    after = unit(across(np.roll(places, -1, axis=1) - places, normals))
+    before = unit(across(np.roll(places, 1, axis=1) - places, normals))
     angles = np.arccos(np.clip((after * before).sum(axis=2), -1, 1))
     weighted = (tangents * np.where(charts.usable[:, None], angles, 0.0)[..., None]).reshape(-1, 3)
-    count = int(groups.max()) + 1
-    sums: Floats = np.stack(
-        [np.bincount(groups, column, minlength=count) for column in weighted.T], axis=1
-    )
-    return sums
+    return sums(weighted, groups, int(groups.max()) + 1)
 
 
-def _across(vectors: Floats, normals: Floats) -> Floats:
-    across: Floats = vectors - (vectors * normals).sum(axis=-1, keepdims=True) * normals
-    return across
+def across(vectors: Floats, normals: Floats) -> Floats:
+    """Lay vectors into the planes of unit normals."""
+    laid: Floats = vectors - (vectors * normals).sum(axis=-1, keepdims=True) * normals
+    return laid
 
 
-def _unit(vectors: Floats) -> Floats:
+def unit(vectors: Floats) -> Floats:
     """Divide by the length; what has none stays."""
     length = np.linalg.norm(vectors, axis=-1, keepdims=True)
-    unit: Floats = vectors / np.where(length > _NO_AREA, length, 1.0)
-    return unit
+    scaled: Floats = vectors / np.where(length > _NO_AREA, length, 1.0)
+    return scaled
 
 
-def _or_perpendicular(vectors: Floats, normals: Floats) -> Floats:
+def or_perpendicular(vectors: Floats, normals: Floats) -> Floats:
     """Give unit vectors; where there is none, the axis least like the normal, laid across it."""
     axis = np.eye(3)[np.argmin(np.abs(normals), axis=1)]
     usable = np.linalg.norm(vectors, axis=1, keepdims=True) > _NO_AREA
-    return _unit(np.where(usable, vectors, _across(axis, normals)))
+    return unit(np.where(usable, vectors, across(axis, normals)))

@@ -1,6 +1,6 @@
 """The fragment shader of a surface: its chunk, and generated code that fills its parameters."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 
 from worker.rendering.chunks import Source, chunk, join
 from worker.rendering.shading_layout import LookupLayout, Parameter, ShadingLayout
@@ -34,7 +34,9 @@ def background_sources(layout: ShadingLayout) -> tuple[Source, Source]:
         *_head(layout, ["lib/background.glsl"]),
         *_declarations(color),
         "void main() {",
-        *_texels(layout, lambda lookup: "coordinates_picture()"),
+        *_texels(
+            layout, range(len(layout.lookups)), lambda lookup, number: "coordinates_picture()"
+        ),
         f"    vec3 light = color_scale * {texel}.rgb + color_bias * {texel}.a;",
         f"    color = holdable(vec4(light, clamp({texel}.a, 0.0, 1.0)));",
         "}",
@@ -47,19 +49,24 @@ def _fragment(layout: ShadingLayout, layered: bool, plane: bool) -> str:
     parameters = [*layout.parameters, *([layout.opacity] if layout.opacity else [])]
     chunks = [f"lib/{'infinite_plane' if plane else 'fragment'}.glsl"]
     chunks += [f"surfaces/{layout.technique}.glsl"]
-    chunks += [f"coordinates/{lookup.coordinates}.glsl" for lookup in layout.lookups]
+    calls = [(call, n) for n, lookup in enumerate(layout.lookups) for call in lookup.calls]
+    chunks += [call.chunk for call, _ in calls]
     chunks += ["lib/normal_map.glsl"] if layout.normal is not None else []
     chunks += ["lib/opacity.glsl"] if layout.opacity else []
     chunks += ["lib/layers.glsl"] if layered else []
     lines = _head(layout, chunks)
+    for call, number in calls:
+        lines += call.declarations(number)
     for parameter in parameters:
         lines += _declarations(parameter)
     if layout.normal is not None:
         lines += ["uniform vec2 normal_range;", "uniform vec4 normal_axes;"]
     lines += ["void main() {", "    SurfacePoint point = surface_point();"]
-    lines += _texels(layout, _coordinates)
     if layout.normal is not None:
+        lines += _texels(layout, [layout.normal], _place)
         lines += _tilt(layout.normal)
+    # After the tilt, so that a bumped mirror reflects by its bumps.
+    lines += _texels(layout, [n for n in range(len(layout.lookups)) if n != layout.normal], _place)
     lines.append("    Surface surface;")
     lines += [f"    surface.{p.name} = {_value(p)};" for p in layout.parameters]
     lines.append("    color = holdable(shade(point, surface));")
@@ -92,18 +99,27 @@ def _head(layout: ShadingLayout, chunks: Sequence[str]) -> list[str]:
     return lines
 
 
-def _texels(layout: ShadingLayout, coordinates: Callable[[LookupLayout], str]) -> list[str]:
-    """Write the readings of all pictures; `coordinates` gives the call that says where."""
-    return [
-        f"    vec4 texel_{index} = sample_{lookup.filter}(picture_{lookup.picture}, "
-        f"look_up({coordinates(lookup)}, lookup_transform[{index}], "
-        f"lookup_period[{index}], lookup_size[{index}]));"
-        for index, lookup in enumerate(layout.lookups)
-    ]
+def _texels(
+    layout: ShadingLayout, numbers: Iterable[int], place: Callable[[LookupLayout, int], str]
+) -> list[str]:
+    """Write the readings with these numbers; `place` gives the call that says where."""
+    lines = []
+    for number in numbers:
+        lookup = layout.lookups[number]
+        lines.append(
+            f"    vec4 texel_{number} = sample_{lookup.filter}(picture_{lookup.picture}, "
+            f"look_up({place(lookup, number)}, lookup_transform[{number}], "
+            f"lookup_period[{number}], lookup_size[{number}]));"
+        )
+    return lines
 
 
-def _coordinates(lookup: LookupLayout) -> str:
-    return f"coordinates_{lookup.coordinates}({', '.join(['point', *map(str, lookup.choices)])})"
+def _place(lookup: LookupLayout, number: int) -> str:
+    """Write where to look: coordinates are of the point, a layout is of coordinates."""
+    text = "point"
+    for call in lookup.calls:
+        text = call.text(text, number)
+    return f"flat_reach({text})" if lookup.calls[-1].returns == "Reach" else text
 
 
 def _tilt(lookup: int) -> list[str]:

@@ -7,9 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from worker.rendering.gl_context import GL
+from worker.rendering.lookups import Picture
 from worker.rendering.programs import Program
 from worker.rendering.pyrender_scene import FlatScene
-from worker.rendering.shading import Picture
 from worker.rendering.targets import Target
 
 _SET_BY_PYRENDER = frozenset({"V", "P", "cam_pos"})

@@ -42,6 +42,7 @@ def plane_uniforms(
         "pixel_origin": origin,
         "plane_from_pixel": plane_from_pixel,
         "position_from_pixel": (eye_from_object @ object_from_plane)[:3] @ plane_from_pixel,
+        "object_from_pixel": object_from_plane[:3] @ plane_from_pixel,
         "depth_from_pixel": clip_from_plane[2] @ plane_from_pixel,
     }
 

@@ -17,7 +17,6 @@ class LayerUniforms:
 
     def set(self, program: Program, world_from_camera: Matrix, mesh: VertexArray) -> None:
         """Tell the bound program where the eye is and how the mesh's triangles lie."""
-        program.set("eye_position", world_from_camera[:3, 3])
         program.set("view_axis", -world_from_camera[:3, 2])
         program.set("has_faces", mesh.has_sides)
         program.set("face_normals", _UNIT)

@@ -148,6 +148,10 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
             return
         program.frame = self._frame.number
         program.set("eye", self._frame.eye)
+        if "eye_position" in program.uniforms:
+            world_from_camera = scene.view.world_from_camera
+            program.set("eye_position", world_from_camera[:3, 3])
+            program.set("camera_from_world", world_from_camera[:3, :3].T)
         if "light_count" in program.uniforms:
             for name, value in self._frame.lights.items():
                 program.set(name, value)

@@ -2,16 +2,18 @@
 
 import itertools
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Protocol
 
 import numpy as np
 
+from api_schemas.coordinates.uv import UvSpec
 from api_schemas.families import Meaning, SurfaceSpec, TextureSpec
 from api_schemas.lights import Light
 from api_schemas.maps import ColorMap
 from api_schemas.model_mesh import ModelMesh
+from api_schemas.relief import Displacement
 from api_schemas.scene import Node, Scene
 from api_schemas.surfaces.phong import PhongSpec
 from api_schemas.surfaces.unlit import UnlitSpec
@@ -24,6 +26,7 @@ from worker.images.pyramids import Cut
 from worker.images.stored_form import BOX, StoredForm, stored
 from worker.models.model import Model, Part
 from worker.rendering.cache import ByteCache
+from worker.rendering.displacing import with_relief
 from worker.rendering.model_changes import seen_parts
 from worker.rendering.pyrender_scene import Background, Drawable, View
 from worker.rendering.shading import Shading, shade, tangent_uv_set
@@ -111,11 +114,16 @@ class SceneBuilder:
             if isinstance(node.mesh, ModelMesh):
                 model = reader(node.mesh)
                 models.append(PlacedModel(model, matrix))
-                placed += _parts(node.mesh, node.surface, model, matrix)
+                found = list(_parts(node.mesh, node.surface, model, matrix))
             elif node.mesh is not None:
                 key = node.mesh.model_dump_json()
                 make = partial(primitives.build, node.mesh)
-                placed.append(_Placed(key, make, node.surface or _MATT_GREY, matrix))
+                found = [_Placed(key, make, node.surface or _MATT_GREY, matrix)]
+            else:
+                continue
+            if node.displacement is not None:
+                found = [_displaced(item, node.displacement, maker) for item in found]
+            placed += found
         kept = [self._kept(item, tangents) for item in placed]
         worn: dict[str, tuple[Shading, int]] = {}
         drawables = []
@@ -195,7 +203,8 @@ class SceneBuilder:
         if spec is None:
             return None
         if isinstance(spec, ColorMap):
-            surface = UnlitSpec(technique="unlit", color=spec)
+            where = {"coordinates": UvSpec(technique="uv"), "layout": None}
+            surface = UnlitSpec(technique="unlit", color=spec.model_copy(update=where))
             return self._shading(surface, maker)
         return tuple(min(value, LARGEST_LIGHT) for value in spec)
 
@@ -219,6 +228,13 @@ def _parts(
             surface=surface or worn or _MATT_GREY,
             world_from_object=matrix @ part.matrix,
         )
+
+
+def _displaced(item: _Placed, spec: Displacement, maker: TextureMaker) -> _Placed:
+    def mesh() -> Mesh:
+        return with_relief(item.mesh(), spec, maker(spec.texture, "data"))
+
+    return replace(item, key=f"{item.key} {spec.model_dump_json()}", mesh=mesh)
 
 
 def _mesh_of(part: Part) -> Mesh:

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from api_schemas.families import AlphaMode
 from api_schemas.maps import Filter
+from worker.rendering.calls import Call
 from worker.rendering.samplers import Sampling
 from worker.rendering.textures import TextureFormat
 
@@ -22,14 +23,12 @@ class LookupLayout:
     """One reading of a picture; parameters that share a lookup cost one.
 
     Attributes:
-        coordinates: The technique that says where.
-        choices: Its parameters, in the order of its fields; they are constants of the program.
+        calls: Which say where: that of the coordinates, then that of the layout, if there is one.
         filter: How texels become a pixel.
         picture: Which unit is read.
     """
 
-    coordinates: str
-    choices: tuple[int, ...]
+    calls: tuple[Call, ...]
     filter: Filter
     picture: int
 

@@ -10,6 +10,13 @@ with size = (width, height), `inputs` the pictures that the spec's fields hold, 
 made at the same size, and `report` to be told the share that is done and the step, where there are
 steps. It is a pure function: no clock, no state, inputs are never modified. An Outcome is a picture
 with layers beside it, or with something to say of it.
+One whose spec is `solid` but not `pointwise` also has
+
+    def synthesize_volume(
+        spec, size: tuple[int, int, int], inputs: Mapping[str, Volume], report: Report
+    ) -> Volume
+
+with size = (width, height, depth) and the volumes of its fields.
 A module with kernels also has `warm()`, which compiles them. A leading underscore marks pieces
 that techniques share.
 """
@@ -19,17 +26,18 @@ from __future__ import annotations
 import importlib
 import pkgutil
 from collections import Counter
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from api_schemas.families import Meaning, TextureSpec
 from api_schemas.language import FAMILIES
 from api_schemas.textures.image import ImageSpec
 from api_schemas.walk import meaning_of
+from worker.images.volume import Volume
 from worker.stages import silent
 from worker.synthesis.outcome import Outcome
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterator, Mapping
     from types import ModuleType
 
     from worker.images.image import Image
@@ -103,6 +111,47 @@ def outcome(
     return make(spec, meaning)
 
 
+def synthesize_volume(
+    spec: TextureSpec,
+    size: tuple[int, int, int],
+    meaning: Meaning = "colour",
+    report: Report = silent,
+) -> Volume:
+    """Make the volume of a solid texture and of all textures nested in it.
+
+    Equal nested textures are made once.
+
+    Args:
+        spec: A texture of a solid technique, with none but solid ones in it.
+        size: Width, height and depth in voxels, also of every nested volume.
+        meaning: Of the slot that the texture itself is in.
+        report: Told the finished part, 0..1, and the technique or its step.
+    """
+    uses = Counter(_keys(spec, meaning))
+    shared: dict[Key, Volume] = {}
+    done = 0
+
+    def make(spec: TextureSpec, meaning: Meaning) -> Volume:
+        nonlocal done
+        key = _key(spec, meaning)
+        if key in shared:
+            return shared[key]
+        inputs = {name: make(*slot) for name, slot in _slots(spec, meaning).items()}
+        before = done
+
+        def told(share: float, step: str) -> None:
+            report((before + share) / len(uses), step)
+
+        told(0.0, spec.technique)
+        volume = _fill(spec, size, inputs, told)
+        done += 1
+        if uses[key] > 1:
+            shared[key] = volume
+        return volume
+
+    return make(spec, meaning)
+
+
 def techniques() -> list[str]:
     """Return the names of the techniques in this folder, in alphabetical order."""
     names = (module.name for module in pkgutil.iter_modules(__path__))
@@ -117,6 +166,19 @@ def warm(report: Report) -> None:
         module = _module(name)
         if hasattr(module, "warm"):
             module.warm()
+
+
+def _fill(
+    spec: TextureSpec, size: tuple[int, int, int], inputs: Mapping[str, Volume], report: Report
+) -> Volume:
+    """Make one volume; what is pointwise sees all slices below each other as one picture."""
+    module = _module(spec.technique)
+    if not spec.pointwise:
+        return cast("Volume", module.synthesize_volume(spec, size, inputs, report))
+    width, height, depth = size
+    stacked = {name: volume.stacked() for name, volume in inputs.items()}
+    made = module.synthesize(spec, (width, height * depth), stacked, report)
+    return Volume.unstacked(made.image if isinstance(made, Outcome) else made, depth)
 
 
 def _slots(spec: TextureSpec, meaning: Meaning) -> dict[str, tuple[TextureSpec, Meaning]]:

@@ -49,7 +49,7 @@ class AxisTable(NamedTuple):
 def axis_table(
     octaves: Sequence[Octave], axis: int, pixels: NDArray[np.int64], size: int, fade: Floats
 ) -> AxisTable:
-    """Tabulate pixel centres along u (axis 0) or v (axis 1) of a tile `size` pixels long.
+    """Tabulate pixel centres along u, v or w (axis 0, 1, 2) of a tile `size` pixels long.
 
     Cells rise from the first to the last pixel and go on beyond the tile without wrapping.
     """
@@ -60,9 +60,14 @@ def axis_table(
         numerator = (2 * pixels + 1) * (octave.cells * SHIFT_UNITS) + 2 * size * octave.shift[axis]
         cells.append(numerator // denominator)
         offsets.append(numerator % denominator / denominator)
-    s = np.array(offsets)
+    return AxisTable(np.array(cells, np.int32), *offsets_and_blends(np.array(offsets), fade))
+
+
+def offsets_and_blends(offsets: NDArray[np.float64], fade: Floats) -> tuple[Floats, Floats]:
+    """Return where in a cell places lie, 0..1, and how far its upper end has been blended in."""
+    s = offsets
     blends = s * (fade[0] + s * (fade[1] + s * (fade[2] + s * (fade[3] + s * fade[4]))))
-    return AxisTable(np.array(cells, np.int32), s.astype(np.float32), blends.astype(np.float32))
+    return s.astype(np.float32), blends.astype(np.float32)
 
 
 @parallel_kernel
@@ -156,15 +161,15 @@ def _fill_block(
             )
             _tabulate_level(level[1 - lower], columns, x, x_blends, gradient_x)
             _tabulate_slope(slope[1 - lower], columns, x_blends, gradient_y)
-            _combine(
+            combine(
                 terms, level[lower], slope[lower], level[1 - lower], slope[1 - lower], weight, bias
             )
         # One row at a time: numba knows that a slice of a row is contiguous, of a block not
         row = pixels[bottom - 1 - line, left : left + width]
         if accumulate:
-            _add_row(row, terms[0], terms[1], terms[2], terms[3], y[line], y_blends[line])
+            add_row(row, terms[0], terms[1], terms[2], terms[3], y[line], y_blends[line])
         else:
-            _set_row(row, terms[0], terms[1], terms[2], terms[3], y[line], y_blends[line])
+            set_row(row, terms[0], terms[1], terms[2], terms[3], y[line], y_blends[line])
 
 
 @kernel
@@ -211,7 +216,7 @@ def _tabulate_slope(
 
 
 @kernel
-def _combine(
+def combine(
     terms: Floats,
     level_0: Floats,
     slope_0: Floats,
@@ -220,6 +225,7 @@ def _combine(
     weight: float,
     bias: Single,
 ) -> None:
+    """Make the four terms of a row of cells from two lattice lines, times `weight`, plus `bias`."""
     width = len(level_0)
     for c in range(width):
         terms[0, c] = bias + weight * level_0[c]
@@ -232,18 +238,20 @@ def _combine(
 
 
 @kernel
-def _set_row(
+def set_row(
     row: Floats, a: Floats, b: Floats, c: Floats, d: Floats, y: float, blend: float
 ) -> None:
+    """Write a row of pixels at distance `y` from the lower lattice line."""
     both = y * blend
     for i in range(len(row)):
         row[i] = (a[i] + y * b[i]) + (blend * c[i] + both * d[i])
 
 
 @kernel
-def _add_row(
+def add_row(
     row: Floats, a: Floats, b: Floats, c: Floats, d: Floats, y: float, blend: float
 ) -> None:
+    """Add to a row of pixels."""
     both = y * blend
     for i in range(len(row)):
         row[i] += (a[i] + y * b[i]) + (blend * c[i] + both * d[i])

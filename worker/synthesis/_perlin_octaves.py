@@ -13,29 +13,38 @@ SHIFT_UNITS = 256
 
 @dataclass(frozen=True, slots=True)
 class Octave:
-    """One layer of noise: weight * noise(cells * (u, v) + shift / SHIFT_UNITS, layer).
+    """One layer of noise: noise(cells * (u, v, w) + shift / SHIFT_UNITS, beats * t, from `layer`).
 
     Attributes:
-        cells: Lattice cells per tile along u and v, which is also the period.
-        weight: Share of the sum.
-        layer: Third lattice index, so that octaves have different gradients.
-        shift: Offset along u and v in 1/256 of a cell, so that the zeros on the lattices of
+        cells: Lattice cells per tile along u, v and w, which is also the period.
+        beats: Lattice cells along time from one repetition to the next.
+        gain: What the octave is multiplied by, n-th power of the spec's gain.
+        share: The gain over the sum of the gains of all octaves, faded ones included, so that a
+            smaller picture shows the same noise with less detail.
+        visibility: What is left of it, 0..1, since pixels cannot show what is too fine for them.
+        layer: Added to the third lattice index, so that octaves have different gradients.
+        shift: Offset along u, v and w in 1/256 of a cell, so that the zeros on the lattices of
             different octaves do not fall together. Octave n is shifted by n steps of the R2
-            sequence (Roberts, 2018), (0.7549, 0.5698) of a cell; the first one is not shifted.
+            sequence (Roberts, 2018), (0.7549, 0.5698) of a cell; the first one is not shifted, and
+            none along w, so that a picture is the slice w = 0 of the solid.
     """
 
     cells: int
-    weight: float
+    beats: int
+    gain: float
+    share: float
+    visibility: float
     layer: int
-    shift: tuple[int, int]
+    shift: tuple[int, int, int]
+
+    @property
+    def weight(self) -> float:
+        """Its share of the sum, as far as it can be seen."""
+        return self.share * self.visibility
 
 
 def octaves_of(spec: PerlinSpec, pixels_per_tile: float) -> list[Octave]:
-    """Return the octaves that can be seen, coarse to fine; none when even the first is too fine.
-
-    Weights are gain^n over the sum of all gain^n, faded ones included, so that a smaller picture
-    shows the same noise with less detail. An octave fades as a smoothstep from full strength at 4
-    pixels per cell to nothing at 2: below, the pixels could not tell its frequencies apart.
+    """Return all octaves, coarse to fine; those too fine to be seen have a visibility of 0.
 
     Args:
         spec: The noise.
@@ -45,14 +54,25 @@ def octaves_of(spec: PerlinSpec, pixels_per_tile: float) -> list[Octave]:
     octaves = []
     for n, gain in enumerate(gains):
         cells = spec.frequency * spec.lacunarity**n
-        weight = gain / sum(gains) * visibility(pixels_per_tile / cells)
-        if weight > 0:
-            shift = (193 * n % SHIFT_UNITS, 145 * n % SHIFT_UNITS)
-            octaves.append(Octave(cells=cells, weight=weight, layer=n, shift=shift))
+        octaves.append(
+            Octave(
+                cells=cells,
+                beats=spec.beats * spec.lacunarity**n,
+                gain=gain,
+                share=gain / sum(gains),
+                visibility=visibility(pixels_per_tile / cells),
+                layer=n,
+                shift=(193 * n % SHIFT_UNITS, 145 * n % SHIFT_UNITS, 0),
+            )
+        )
     return octaves
 
 
 def visibility(pixels_per_cell: float) -> float:
-    """Return which share of its strength a layer of noise keeps at so many pixels per cell."""
+    """Return which share of its strength a layer of noise keeps at so many pixels per cell.
+
+    It fades as a smoothstep from all at 4 pixels per cell to nothing at 2: below, the pixels could
+    not tell its frequencies apart.
+    """
     s = min(max((pixels_per_cell - 2) / 2, 0.0), 1.0)
     return s * s * (3 - 2 * s)

@@ -1,7 +1,7 @@
 """Perlin's gradient noise at single points, float64: what every faster form is tested against.
 
 The gradient of a lattice point (i, j, k) is number p[p[p[i] + j] + k] of a list, p being a
-permutation of 0..255. In 3D the list is Perlin's sixteen; in 2D it is one of `GRADIENTS`.
+permutation of 0..255; time adds another level. In 3D the list is Perlin's sixteen.
 """
 
 from __future__ import annotations
@@ -15,6 +15,8 @@ from worker.numba_kernel import kernel
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+    Numbers = NDArray[np.float64]
 
 # Perlin 2002: the twelve edges of a cube; four of them repeated make sixteen.
 GRADIENTS_3D = np.array(
@@ -41,6 +43,26 @@ GRADIENTS_2D = {
         dtype=np.float64,
     ),
 }  # fmt: skip
+
+# The 32 edges of a hypercube: each triple of axes with all eight signs, in the manner of Perlin's
+# own code for time, which however takes the axes y, z, t twice and x, y, z never.
+GRADIENTS_4D = np.array(
+    [
+        [
+            0.0 if axis == left_out else (1.0 if signs >> (axis - (axis > left_out)) & 1 else -1.0)
+            for axis in range(4)
+        ]
+        for left_out in (3, 0, 1, 2)
+        for signs in range(8)
+    ]
+)
+
+# By what a gradient list is for, with four components each: as many as gradient_noise has axes
+GRADIENTS = {
+    **{name: np.pad(vectors, ((0, 0), (0, 2))) for name, vectors in GRADIENTS_2D.items()},
+    "solid": np.pad(GRADIENTS_3D, ((0, 0), (0, 1))),
+    "time": GRADIENTS_4D,
+}
 
 # The blend a(s) between lattice points is s (c1 + s (c2 + s (c3 + s (c4 + s c5)))).
 FADES = {
@@ -72,32 +94,66 @@ def noise3(x: float, y: float, z: float, table: NDArray[np.int32]) -> float:
 
 
 @kernel
-def noise2(
-    x: float,
-    y: float,
+def gradient_noise(
+    place: Numbers,
+    axes: int,
     layer: int,
     period: int,
+    beats: int,
     table: NDArray[np.int32],
-    gradients: NDArray[np.float64],
-    fade: NDArray[np.float64],
+    gradients: Numbers,
+    fade: Numbers,
+    slope: Numbers,
+    work: Numbers,
 ) -> float:
-    """Evaluate 2D noise of an integer period; with "reference" it is noise3(x, y, layer).
+    """Evaluate noise with integer periods along 2, 3 or 4 axes, and its derivatives.
 
-    `table` is a permutation, `gradients` and `fade` are values of GRADIENTS_2D and FADES. The
-    identity holds where the indices stay within the period and the fade is quintic.
+    Args:
+        place: In cells, (4,); the fourth is time. Axes beyond `axes` are not looked at.
+        axes: 2 for a plane: noise in space at w = `layer`, if the gradients are its.
+        layer: Added to the third lattice index.
+        period: Cells until it repeats along u, v and w.
+        beats: Cells until it repeats along time.
+        table: A permutation.
+        gradients: One of GRADIENTS, of a power of two.
+        fade: One of FADES.
+        slope: (4,), is filled with the derivatives by place.
+        work: (4, 4), is overwritten.
     """
-    i, j = math.floor(x), math.floor(y)
-    x, y = x - i, y - j
-    u, v = _blend(x, fade), _blend(y, fade)
-    plane = 0.0
-    for dj in range(2):
-        left = _corner2(x, y - dj, i % period, (j + dj) % period, layer, table, gradients)
-        right = _corner2(
-            x - 1.0, y - dj, (i + 1) % period, (j + dj) % period, layer, table, gradients
+    cell, offset, blend, growth = work[0], work[1], work[2], work[3]
+    for axis in range(axes):
+        cell[axis] = math.floor(place[axis])
+        s = place[axis] - cell[axis]
+        offset[axis] = s
+        blend[axis] = s * (fade[0] + s * (fade[1] + s * (fade[2] + s * (fade[3] + s * fade[4]))))
+        growth[axis] = fade[0] + s * (
+            2 * fade[1] + s * (3 * fade[2] + s * (4 * fade[3] + s * 5 * fade[4]))
         )
-        row = left + u * (right - left)
-        plane = row if dj == 0 else plane + v * (row - plane)
-    return plane
+    value = 0.0
+    slope[:] = 0.0
+    mask = len(gradients) - 1
+    for corner in range(1 << axes):
+        i = (int(cell[0]) + (corner & 1)) % period
+        j = (int(cell[1]) + (corner >> 1 & 1)) % period
+        k = (int(cell[2]) + (corner >> 2 & 1)) % period if axes > 2 else 0
+        number = hashed(i, j, k + layer, table)
+        if axes > 3:
+            number = table[(number + (int(cell[3]) + (corner >> 3)) % beats) & 255]
+        gradient = gradients[number & mask]
+        height, weight = 0.0, 1.0
+        for axis in range(axes):
+            upper = corner >> axis & 1
+            height += gradient[axis] * (offset[axis] - upper)
+            weight *= blend[axis] if upper else 1 - blend[axis]
+        value += weight * height
+        for axis in range(axes):
+            others = 1.0
+            for other in range(axes):
+                if other != axis:
+                    others *= blend[other] if corner >> other & 1 else 1 - blend[other]
+            rise = growth[axis] if corner >> axis & 1 else -growth[axis]
+            slope[axis] += weight * gradient[axis] + height * others * rise
+    return value
 
 
 @kernel
@@ -117,49 +173,5 @@ def _corner3(
 
 
 @kernel
-def _corner2(
-    x: float,
-    y: float,
-    i: int,
-    j: int,
-    layer: int,
-    table: NDArray[np.int32],
-    gradients: NDArray[np.float64],
-) -> float:
-    gradient = gradients[hashed(i, j, layer, table) & (len(gradients) - 1)]
-    value: float = gradient[0] * x + gradient[1] * y
-    return value
-
-
-@kernel
 def _quintic(s: float) -> float:
     return s * s * s * (s * (s * 6.0 - 15.0) + 10.0)
-
-
-@kernel
-def _blend(s: float, fade: NDArray[np.float64]) -> float:
-    blend: float = s * (fade[0] + s * (fade[1] + s * (fade[2] + s * (fade[3] + s * fade[4]))))
-    return blend
-
-
-@kernel
-def fill_fractal_noise_at(
-    values: NDArray[np.float64],
-    u: NDArray[np.float64],
-    v: NDArray[np.float64],
-    octaves: NDArray[np.float64],
-    table: NDArray[np.int32],
-    gradients: NDArray[np.float64],
-    fade: NDArray[np.float64],
-) -> None:
-    """Write the weighted sum of octaves at points of the tile.
-
-    A row of `octaves` is (cells, weight, layer, shift along u, shift along v), shifts in cells.
-    """
-    for point in range(len(values)):
-        values[point] = 0.0
-        for n in range(len(octaves)):
-            cells, weight, layer, shift_u, shift_v = octaves[n]
-            x, y = u[point] * cells + shift_u, v[point] * cells + shift_v
-            noise = noise2(x, y, int(layer), int(cells), table, gradients, fade)
-            values[point] += weight * noise

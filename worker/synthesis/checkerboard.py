@@ -1,7 +1,8 @@
 """Squares of two colours (Hughes et al., 2013, section 20.7), averaged exactly over each pixel.
 
 With S = +1 on [0, 1) and -1 on [1, 2), repeated, the colour at (x, y) in squares is the first one
-with share (1 + S(x) S(y)) / 2 and the second one for the rest. The mean of S over [a, b] is
+with share (1 + S(x) S(y)) / 2 and the second one for the rest; in a solid of cubes S(z) is a third
+factor. The mean of S over [a, b] is
 (T(b) - T(a)) / (b - a) with its integral, the triangle wave T(x) = 1 - |1 - (x mod 2)|.
 """
 
@@ -12,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from worker.images.image import Image
+from worker.images.volume import Volume
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -29,16 +31,33 @@ def synthesize(
 ) -> Image:
     """Average the tile over each pixel of (width, height); the lower left square has colors[0]."""
     width, height = size
+    down = _mean_signs(spec.cells[1], height)[::-1]
+    return Image(_blended(spec, _mean_signs(spec.cells[0], width), down), spec.meaning)
+
+
+def synthesize_volume(
+    spec: CheckerboardSpec, size: tuple[int, int, int], inputs: Mapping[str, Volume], report: Report
+) -> Volume:
+    """Average the solid tile over each voxel of (width, height, depth)."""
+    width, height, depth = size
+    down = _mean_signs(spec.cells[1], height)[::-1]
+    away = _mean_signs((spec.cells * 2)[2], depth)
+    rows = _blended(spec, _mean_signs(spec.cells[0], width), np.outer(away, down).ravel())
+    return Volume(rows.reshape(depth, height, width, -1), spec.meaning)
+
+
+def _blended(
+    spec: CheckerboardSpec, across: NDArray[np.float64], down: NDArray[np.float64]
+) -> NDArray[np.float32]:
     first, second = np.array(spec.colors, np.float32).astype(np.float64)
-    across = _mean_signs(spec.cells[0], width)
-    signs, row_kinds = np.unique(_mean_signs(spec.cells[1], height)[::-1], return_inverse=True)
-    rows = np.empty((len(signs), width, len(first)), np.float32)
+    signs, row_kinds = np.unique(down, return_inverse=True)
+    rows = np.empty((len(signs), len(across), len(first)), np.float32)
     # In float64, so that pure colours and equal colours come out exactly; banded to stay small
     for start in range(0, len(signs), _BAND_ROWS):
         products = np.multiply.outer(signs[start : start + _BAND_ROWS], across)
         share = (0.5 + 0.5 * products)[..., np.newaxis]
         rows[start : start + _BAND_ROWS] = share * first + (1 - share) * second
-    return Image(rows[row_kinds], spec.meaning)
+    return rows[row_kinds]
 
 
 def _mean_signs(cells: int, pixels: int) -> NDArray[np.float64]:

@@ -12,6 +12,7 @@ uniform mat4 eye_from_object;  // axes of the world, origin at the eye: small nu
 uniform mat3 normal_from_object;
 uniform float handedness;  // -1 where the transform mirrors, else 1
 out vec3 vertex_position;
+out vec3 vertex_object_position;
 out vec3 vertex_normal;
 out vec4 vertex_tangent;
 out vec4 vertex_color;
@@ -30,6 +31,7 @@ vec3 direction_of(vec3 vector) {
 // What the surface does not use, the compiler leaves out here too.
 void main() {
     vertex_position = (eye_from_object * vec4(mesh_position, 1.0)).xyz;
+    vertex_object_position = mesh_position;
     vertex_normal = direction_of(normal_from_object * mesh_normal);
     vec3 tangent = direction_of(mat3(eye_from_object) * mesh_tangent.xyz);
     vertex_tangent = vec4(tangent, handedness * mesh_tangent.w);

@@ -1,4 +1,3 @@
-#include "lib/footprint.glsl"
 #include "lib/reach.glsl"
 
 // Longitude and latitude (Blinn and Newell 1976): worker/layouts/latlong.py is the same.
@@ -20,13 +19,14 @@ vec2 layout_latlong(vec3 direction, const int centre) {
 
 // The change of u comes from the direction's, which has no seam, and is a whole turn at most.
 vec2 latlong_change(vec3 direction, vec3 change) {
-    float across = max(length(direction.xz), 1e-9 * abs(direction.y));
+    float across = length(direction.xz);
+    float circle = max(across, length(direction) / 8.0);
     float u = direction.x * change.z - direction.z * change.x;
     float outwards = dot(direction.xz, change.xz) / across;
     float v = across * change.y - direction.y * outwards;
     float turn = 2.0 * LATLONG_PI;
     return vec2(
-        clamp(u / (turn * across * across), -1.0, 1.0),
+        clamp(u / (turn * max(across, 1e-30) * circle), -1.0, 1.0),
         v / (LATLONG_PI * dot(direction, direction))
     );
 }

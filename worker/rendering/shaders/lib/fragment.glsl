@@ -1,6 +1,7 @@
 #include "lib/picture.glsl"
 #include "lib/surface_point.glsl"
 in vec3 vertex_position;
+in vec3 vertex_object_position;
 in vec3 vertex_normal;
 in vec4 vertex_tangent;
 in vec4 vertex_color;
@@ -20,6 +21,7 @@ SurfacePoint surface_point() {
     vec3 normal = gl_FrontFacing ? outer : -outer;
     return SurfacePoint(
         vertex_position,
+        vertex_object_position,
         normal,
         normal,
         normalize(eye.xyz - eye.w * vertex_position),

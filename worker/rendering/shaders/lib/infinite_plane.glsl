@@ -8,6 +8,7 @@ uniform vec4 eye;  // (0, 0, 0, 1), or the direction towards an orthographic cam
 uniform vec2 pixel_origin;
 uniform mat3 plane_from_pixel;     // to u / w, v / w, 1 / w
 uniform mat3 position_from_pixel;  // to the position over w
+uniform mat3 object_from_pixel;    // and in the object's frame
 uniform vec3 depth_from_pixel;     // to the depth: 1 at the near plane, 0 at the far one
 
 const float HORIZON = 1e-15;          // 1 / w of what is as far away as numbers reach
@@ -31,6 +32,7 @@ SurfacePoint surface_point() {
     vec3 normal = gl_FrontFacing ? outer : -outer;
     return SurfacePoint(
         position,
+        object_from_pixel * pixel() / inverse,
         normal,
         normal,
         normalize(eye.xyz - eye.w * position),

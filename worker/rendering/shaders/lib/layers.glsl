@@ -1,3 +1,4 @@
+#include "lib/frames.glsl"
 #include "lib/picture.glsl"
 #include "lib/surface_point.glsl"
 
@@ -9,11 +10,9 @@ layout(location = 4) out vec4 layer_position;          // a = material id
 layout(location = 5) out vec4 layer_tangent;
 layout(location = 6) out vec4 layer_uv;
 
-uniform vec3 eye_position;  // in the world
-uniform vec3 view_axis;     // where the eye looks
+uniform vec3 view_axis;  // where the eye looks
 uniform int object_id;
 uniform int material_id;
-uniform mat3 normal_from_object;
 uniform samplerBuffer face_normals;  // of each triangle, outward, in the object's frame
 uniform bool has_faces;              // lines and points have none
 

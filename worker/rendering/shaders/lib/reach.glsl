@@ -1,3 +1,4 @@
+#include "lib/footprint.glsl"
 #include "lib/surface_point.glsl"
 
 // A vector at a pixel's middle, and its change to the next pixels' middles.
@@ -18,4 +19,14 @@ Reach reach_of(vec3 value) {
         (dFdx(scaled) - value * dFdx(inverse)) / inverse,
         (dFdy(scaled) - value * dFdy(inverse)) / inverse
     );
+}
+
+// Of a direction or whatever else was computed at each pixel. It has no seams.
+Reach difference_of(vec3 value) {
+    return Reach(value, dFdx(value), dFdy(value));
+}
+
+// The first two numbers, as a place on a picture.
+Footprint flat_reach(Reach reach) {
+    return Footprint(reach.place.xy, reach.across_x.xy, reach.across_y.xy);
 }

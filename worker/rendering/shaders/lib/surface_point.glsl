@@ -1,6 +1,7 @@
 // Where the eye meets a surface. Directions are unit vectors in world axes.
 struct SurfacePoint {
     vec3 position;  // world axes, seen from the eye
+    vec3 object_position;  // in the mesh's own frame
     vec3 normal;    // on the eye's side of the surface; none, (0, 0, 0), of lines and points without
     vec3 smooth_normal;  // the same, but never tilted by a normal map
     vec3 view;      // towards the eye

@@ -1,0 +1,51 @@
+"""The Phong model with a highlight that is longer along one direction than across it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, ClassVar, Literal
+
+from pydantic import Field
+
+from api_schemas.families import SurfaceSpec
+
+if TYPE_CHECKING:
+    from api_schemas.language import MappableColor, MappableNonNegative, MappableNumber
+
+
+class BrushedMetalSpec(SurfaceSpec):
+    """Metal with fine scratches in one direction: the dot product of the highlight is mapped."""
+
+    needs_tangents: ClassVar[bool] = True
+    source: ClassVar[str] = "Hughes et al., 2013, exercise 20.1; Phong, 1975"
+    equation: ClassVar[str] = (
+        "L_out = emission + Ca La + sum_l [Cd max(0, n.l) + Cs max(0, r^T M v)^n] L_l, "
+        "M = V diag(s, t, 1) V^T, V = [t1 t2 n]"
+    )
+
+    technique: Literal["brushed_metal"]
+    diffuse_color: MappableColor = Field(
+        default=[0.1, 0.1, 0.1],
+        description="Linear colour of the matt part (Cd), in ambient light too (Ca).",
+    )
+    specular_color: MappableColor = Field(
+        default=[0.8, 0.8, 0.8], description="Linear colour of the highlight (Cs)."
+    )
+    exponent: MappableNonNegative = Field(
+        default=32.0,
+        description="How tight the highlight is (n), where it is tightest: larger is smaller.",
+    )
+    along: MappableNumber = Field(
+        default=0.3,
+        description="How much a tilt along the scratches takes from the highlight (s): 1 as much "
+        "as in Phong's model, 0 nothing, so that it becomes a streak; a map is cut off to 0..1.",
+    )
+    across: MappableNumber = Field(
+        default=1.0, description="The same for a tilt across the scratches (t)."
+    )
+    angle: MappableNumber = Field(
+        default=0.0,
+        description="Turns the scratches counter-clockwise, in radians, from where u grows.",
+    )
+    emission: MappableColor = Field(
+        default=[0.0, 0.0, 0.0], description="Linear radiance the surface adds by itself."
+    )

@@ -1,0 +1,85 @@
+"""Pictures of relief made ready for filtering: numbers of which means are meaningful."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from api_schemas.base import FLOAT32_MAX
+from api_schemas.maps import Wrap
+from api_schemas.relief import BumpEncoding
+from worker.images.image import Image
+
+_BYTE_MAX = 255
+
+
+@dataclass(frozen=True, slots=True)
+class Decoded:
+    """Asks for the tilts that a bump map's texels mean."""
+
+    encoding: BumpEncoding
+
+
+@dataclass(frozen=True, slots=True)
+class Slopes:
+    """Asks for heights with their slopes: of one channel (0..3), where edges go on as wrapped."""
+
+    channel: int
+    wrap: tuple[Wrap, Wrap]
+
+
+Preparation = Decoded | Slopes
+
+
+def prepared(image: Image, preparation: Preparation | None) -> Image:
+    """Return what a preparation asks for, or the picture itself.
+
+    Decoded: two channels, tilts along u and v. Slopes: three channels: the height, and its change
+    per tile along u and along v. What is no number is 0.
+    """
+    if preparation is None:
+        return image
+    finite = np.nan_to_num(image.pixels, posinf=FLOAT32_MAX, neginf=-FLOAT32_MAX)
+    if isinstance(preparation, Decoded):
+        pair = finite[..., [0, min(1, image.channels - 1)]]
+        return Image(decode(pair, preparation.encoding), "data")
+    channel = 0 if image.channels == 1 and preparation.channel < 3 else preparation.channel
+    if channel >= image.channels:
+        flat = np.zeros((*finite.shape[:2], 3), dtype=np.float32)
+        flat[..., 0] = preparation.channel == 3  # a missing alpha is 1
+        return Image(flat, "data")
+    return Image(with_slopes(finite[..., channel], preparation.wrap), "data")
+
+
+def decode(texels: NDArray[np.floating], encoding: BumpEncoding) -> NDArray[np.float32]:
+    """Give the numbers -1..1 that texels mean; a byte B is B / 255.
+
+    snorm8: the byte R in two's complement, max(R, -127) / 127, so that -128 and -127 are both -1;
+    unorm8: 2 B / 255 - 1, which is never 0; float: as they are.
+
+    Source: Hughes et al., 2013, section 20.2.
+    """
+    if encoding == "float":
+        return texels.astype(np.float32)
+    values = texels.astype(np.float64)
+    if encoding == "unorm8":
+        return np.clip(2 * values - 1, -FLOAT32_MAX, FLOAT32_MAX).astype(np.float32)
+    byte = np.rint(np.clip(values, 0, 1) * _BYTE_MAX)
+    signed = np.where(byte > 127, byte - 256, byte)
+    return (np.maximum(signed, -127) / 127).astype(np.float32)
+
+
+def with_slopes(heights: NDArray[np.float32], wrap: tuple[Wrap, Wrap]) -> NDArray[np.float32]:
+    """Give heights (h, w) with their central differences, per tile: float32 (h, w, 3).
+
+    Beyond an edge that does not repeat, its own texel goes on.
+    """
+    wide = heights.astype(np.float64)
+    height, width = wide.shape
+    sides = [("wrap" if mode == "repeat" else "edge") for mode in wrap]
+    across = np.pad(wide, ((0, 0), (1, 1)), mode=sides[0])
+    along = np.pad(wide, ((1, 1), (0, 0)), mode=sides[1])
+    right = (across[:, 2:] - across[:, :-2]) * (width / 2)
+    up = (along[:-2] - along[2:]) * (height / 2)
+    slopes = np.stack([wide, right, up], axis=2)
+    return np.clip(slopes, -FLOAT32_MAX, FLOAT32_MAX).astype(np.float32)

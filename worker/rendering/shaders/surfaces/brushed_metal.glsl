@@ -1,0 +1,42 @@
+#include "lib/lights.glsl"
+#include "lib/power.glsl"
+#include "lib/scratches.glsl"
+#include "lib/surface_point.glsl"
+
+struct Surface {
+    vec3 diffuse_color;
+    vec3 specular_color;
+    float exponent;
+    float along;
+    float across;
+    float angle;
+    vec3 emission;
+};
+
+// L_out = emission + Ca La + sum_l [Cd max(0, n.l) + Cs max(0, r^T M v)^n] L_l with
+// M = V diag(s, t, 1) V^T, V = [t1 t2 n] (Hughes et al. 2013, exercise 20.1): s = t = 1 is Phong's.
+vec4 shade(SurfacePoint point, Surface surface) {
+    vec3 matt = surface.diffuse_color * point.color.rgb;
+    if (point.normal == vec3(0.0)) return vec4(surface.emission + matt, 1.0);
+    Scratches axes = scratches(point, surface.angle);
+    vec2 kept = clamp(vec2(surface.along, surface.across), 0.0, 1.0);
+    // M v: what r is multiplied by.
+    vec3 mapped_view = kept.x * dot(axes.along, point.view) * axes.along
+        + kept.y * dot(axes.across, point.view) * axes.across
+        + dot(point.normal, point.view) * point.normal;
+    float exponent = max(surface.exponent, 0.0);
+    vec3 radiance = surface.emission + matt * ambient_radiance;
+    for (int i = 0; i < light_count; i++) {
+        Light light = light_at(i, point.position);
+        float facing = dot(point.normal, light.direction);
+        if (facing <= 0.0) continue;
+        vec3 mirrored = 2.0 * facing * point.normal - light.direction;
+        float highlight = exact_power(clamp(dot(mirrored, mapped_view), 0.0, 1.0), exponent);
+        radiance += (matt * facing + surface.specular_color * highlight) * light.irradiance;
+    }
+    return vec4(radiance, 1.0);
+}
+
+vec3 albedo(Surface surface) {
+    return surface.diffuse_color + surface.specular_color;
+}

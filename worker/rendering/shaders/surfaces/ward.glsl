@@ -1,0 +1,44 @@
+#include "lib/lights.glsl"
+#include "lib/power.glsl"
+#include "lib/scratches.glsl"
+#include "lib/surface_point.glsl"
+
+struct Surface {
+    vec3 diffuse_color;
+    vec3 specular_color;
+    float roughness_along;
+    float roughness_across;
+    float angle;
+    vec3 emission;
+};
+
+const float PI = 3.14159265;
+const float SMOOTHEST = 1e-3;
+
+// Ward 1992, equation 5a, times cos i, with h left long: tan^2 d cos^2 p = (h.x / h.n)^2.
+// Ambient light comes back as from a matt surface of both colours.
+vec4 shade(SurfacePoint point, Surface surface) {
+    vec3 matt = surface.diffuse_color * point.color.rgb;
+    vec3 gloss = surface.specular_color;
+    if (point.normal == vec3(0.0)) return vec4(surface.emission + matt, 1.0);
+    Scratches axes = scratches(point, surface.angle);
+    vec2 slope = max(vec2(surface.roughness_along, surface.roughness_across), SMOOTHEST);
+    float seen = max(dot(point.normal, point.view), 1e-4);
+    vec3 radiance = surface.emission + (matt + gloss) * ambient_radiance;
+    for (int i = 0; i < light_count; i++) {
+        Light light = light_at(i, point.position);
+        float facing = dot(point.normal, light.direction);
+        if (facing <= 0.0) continue;
+        vec3 half_way = light.direction + point.view;
+        vec2 lean = vec2(dot(half_way, axes.along), dot(half_way, axes.across));
+        lean /= slope * max(dot(half_way, point.normal), 1e-6);
+        float lobe = exact_exp2(-1.44269504 * dot(lean, lean));
+        float peak = lobe * sqrt(facing / seen) / (4.0 * PI * slope.x * slope.y);
+        radiance += (matt * facing / PI + gloss * peak) * light.irradiance;
+    }
+    return vec4(radiance, 1.0);
+}
+
+vec3 albedo(Surface surface) {
+    return surface.diffuse_color + surface.specular_color;
+}
