@@ -22,8 +22,9 @@ from api_schemas.coverage import coverage, stand_in
 from api_schemas.families import SurfaceSpec, TextureSpec
 from api_schemas.geometry import IDENTITY, Affine, Vector3, affine
 from api_schemas.lights import LIGHTS_MAX
-from api_schemas.maps import TABLE_FILTERS, ColorMap, NormalMap, NumberMap
+from api_schemas.maps import TABLE_FILTERS
 from api_schemas.output_cost import samples_of, sampling, tiles_of, writing
+from api_schemas.relief import AnyMap
 from api_schemas.requests import RenderRequest, Request
 from api_schemas.scene import Node
 from api_schemas.textures.image import ImageSpec
@@ -50,7 +51,7 @@ SECONDS_PER_SORTED_TRIANGLE = 3e-7
 MAPS_OF_A_MATERIAL = 3
 """Of a material of a model, where facts tell of pictures at all: colour, normals and the rest."""
 LIGHTS_OF_A_STUDIO = 2
-MAPS = ColorMap | NumberMap | NormalMap
+MAPS = AnyMap
 _Drawn: TypeAlias = tuple[Node, Affine | None, Body]
 """A node, where the middle of its mesh stands, and what that mesh is."""
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal, TypeAlias
 
 from pydantic import Field
 
 from api_schemas.base import WHOLE, Coordinate, Length, Number
-from api_schemas.maps import DATA, Map
+from api_schemas.maps import DATA, ColorMap, Map, NormalMap, NumberMap
 
 if TYPE_CHECKING:
     from api_schemas.language import Texture
@@ -118,4 +118,8 @@ class Displacement(ReliefMap):
 
     def triangles(self, before: int) -> int:
         """Return how many triangles become of so many, at most."""
-        return before * 4 ** self.levels(before)
+        return before << 2 * self.levels(before)
+
+
+AnyMap: TypeAlias = ColorMap | NumberMap | NormalMap | BumpMap | ReliefMap
+"""A map with its texture, whatever that is read as."""

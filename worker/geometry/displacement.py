@@ -47,4 +47,6 @@ def _facet_means(positions: Floats, corners: Indices, groups: Indices) -> Floats
     facets = np.cross(b - a, c - a)
     means = sums(np.repeat(facets, 3, axis=0), groups[corners].ravel(), int(groups.max()) + 1)
     length = np.linalg.norm(means, axis=1, keepdims=True)
-    return np.divide(means, length, out=np.zeros_like(means), where=length > _NO_LENGTH)[groups]
+    unit_means = np.divide(means, length, out=np.zeros_like(means), where=length > _NO_LENGTH)
+    spread: Floats = unit_means[groups]
+    return spread

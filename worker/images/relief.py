@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from api_schemas.base import FLOAT32_MAX
-from api_schemas.maps import Wrap
+from api_schemas.families import Wrap
 from api_schemas.relief import BumpEncoding
 from worker.images.image import Image
 
@@ -76,10 +76,15 @@ def with_slopes(heights: NDArray[np.float32], wrap: tuple[Wrap, Wrap]) -> NDArra
     """
     wide = heights.astype(np.float64)
     height, width = wide.shape
-    sides = [("wrap" if mode == "repeat" else "edge") for mode in wrap]
-    across = np.pad(wide, ((0, 0), (1, 1)), mode=sides[0])
-    along = np.pad(wide, ((1, 1), (0, 0)), mode=sides[1])
-    right = (across[:, 2:] - across[:, :-2]) * (width / 2)
-    up = (along[:-2] - along[2:]) * (height / 2)
-    slopes = np.stack([wide, right, up], axis=2)
-    return np.clip(slopes, -FLOAT32_MAX, FLOAT32_MAX).astype(np.float32)
+    right = _rise(wide, wrap[0]) * width
+    up = -_rise(wide.T, wrap[1]).T * height
+    known: NDArray[np.float64] = np.stack([wide, right, up], axis=2)
+    return np.clip(known, -FLOAT32_MAX, FLOAT32_MAX).astype(np.float32)
+
+
+def _rise(values: NDArray[np.float64], wrap: Wrap) -> NDArray[np.float64]:
+    """Return half the difference between the texels after and before each one of a row."""
+    after, before = np.roll(values, -1, axis=1), np.roll(values, 1, axis=1)
+    if wrap != "repeat":
+        after[:, -1], before[:, 0] = values[:, -1], values[:, 0]
+    return after / 2 - before / 2

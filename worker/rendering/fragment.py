@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterable, Sequence
 
 from worker.rendering.chunks import Source, chunk, join
+from worker.rendering.relief_fragment import aside, relief_chunks, tilts
 from worker.rendering.shading_layout import LookupLayout, Parameter, ShadingLayout
 
 VERSION = "#version 410 core"
@@ -51,7 +52,7 @@ def _fragment(layout: ShadingLayout, layered: bool, plane: bool) -> str:
     chunks += [f"surfaces/{layout.technique}.glsl"]
     calls = [(call, n) for n, lookup in enumerate(layout.lookups) for call in lookup.calls]
     chunks += [call.chunk for call, _ in calls]
-    chunks += ["lib/normal_map.glsl"] if layout.normal is not None else []
+    chunks += relief_chunks(layout.relief)
     chunks += ["lib/opacity.glsl"] if layout.opacity else []
     chunks += ["lib/layers.glsl"] if layered else []
     lines = _head(layout, chunks)
@@ -59,14 +60,8 @@ def _fragment(layout: ShadingLayout, layered: bool, plane: bool) -> str:
         lines += call.declarations(number)
     for parameter in parameters:
         lines += _declarations(parameter)
-    if layout.normal is not None:
-        lines += ["uniform vec2 normal_range;", "uniform vec4 normal_axes;"]
     lines += ["void main() {", "    SurfacePoint point = surface_point();"]
-    if layout.normal is not None:
-        lines += _texels(layout, [layout.normal], _place)
-        lines += _tilt(layout.normal)
-    # After the tilt, so that a bumped mirror reflects by its bumps.
-    lines += _texels(layout, [n for n in range(len(layout.lookups)) if n != layout.normal], _place)
+    lines += _relief(layout)
     lines.append("    Surface surface;")
     lines += [f"    surface.{p.name} = {_value(p)};" for p in layout.parameters]
     lines.append("    color = holdable(shade(point, surface));")
@@ -99,19 +94,58 @@ def _head(layout: ShadingLayout, chunks: Sequence[str]) -> list[str]:
     return lines
 
 
+def _relief(layout: ShadingLayout) -> list[str]:
+    """Write the readings of all pictures, and how some of them move and tilt the point.
+
+    What tilts is read first, so that a bumped mirror reflects by its bumps.
+    """
+    place = _place if layout.relief.parallax is None else _moved_place
+
+    def read(number: int) -> list[str]:
+        return _texels(layout, [number], place)
+
+    early = layout.relief.tilting
+    late = [number for number in range(len(layout.lookups)) if number not in early]
+    return [
+        *aside(layout, lambda number: _place(layout.lookups[number], number)),
+        *tilts(layout.relief, read, lambda number: place(layout.lookups[number], number)),
+        *_texels(layout, late, place),
+    ]
+
+
 def _texels(
     layout: ShadingLayout, numbers: Iterable[int], place: Callable[[LookupLayout, int], str]
 ) -> list[str]:
-    """Write the readings with these numbers; `place` gives the call that says where."""
+    """Write the readings with these numbers; `place` gives what says where."""
     lines = []
     for number in numbers:
-        lookup = layout.lookups[number]
-        lines.append(
-            f"    vec4 texel_{number} = sample_{lookup.filter}(picture_{lookup.picture}, "
-            f"look_up({place(lookup, number)}, lookup_transform[{number}], "
-            f"lookup_period[{number}], lookup_size[{number}]));"
-        )
+        where = place(layout.lookups[number], number)
+        if layout.lookups[number].returns == "Triplanar":
+            lines += _three_texels(layout.lookups[number], number, where)
+        else:
+            lines.append(
+                f"    vec4 texel_{number} = {_reading(layout.lookups[number], number, where)};"
+            )
     return lines
+
+
+def _three_texels(lookup: LookupLayout, number: int, where: str) -> list[str]:
+    """Write three readings, blended so that a constant picture is constant to the last bit."""
+    sides, texel = f"sides_{number}", f"texel_{number}"
+    x, y, z = (_reading(lookup, number, f"{sides}.along_{axis}") for axis in "xyz")
+    weights = f"{sides}.weights"
+    return [
+        f"    Triplanar {sides} = {where};",
+        f"    vec4 {texel} = {x};",
+        f"    {texel} += {weights}.y * ({y} - {texel}) + {weights}.z * ({z} - {texel});",
+    ]
+
+
+def _reading(lookup: LookupLayout, number: int, where: str) -> str:
+    return (
+        f"sample_{lookup.filter}(picture_{lookup.picture}, look_up({where}, "
+        f"lookup_transform[{number}], lookup_period[{number}], lookup_size[{number}]))"
+    )
 
 
 def _place(lookup: LookupLayout, number: int) -> str:
@@ -119,15 +153,11 @@ def _place(lookup: LookupLayout, number: int) -> str:
     text = "point"
     for call in lookup.calls:
         text = call.text(text, number)
-    return f"flat_reach({text})" if lookup.calls[-1].returns == "Reach" else text
+    return f"flat_reach({text})" if lookup.returns == "Reach" else text
 
 
-def _tilt(lookup: int) -> list[str]:
-    return [
-        f"    vec3 tilt = normal_range.x * texel_{lookup}.xyz + normal_range.y;",
-        "    tilt.xy = vec2(dot(normal_axes.xy, tilt.xy), dot(normal_axes.zw, tilt.xy));",
-        "    point.normal = tilted_normal(point, vertex_normal, tilt);",
-    ]
+def _moved_place(lookup: LookupLayout, number: int) -> str:
+    return f"moved({_place(lookup, number)}, aside)"
 
 
 def _declarations(parameter: Parameter) -> list[str]:

@@ -9,8 +9,10 @@ from typing import Any, Protocol
 import numpy as np
 
 from api_schemas.families import Meaning, TextureSpec
-from api_schemas.maps import ColorMap, Map, NormalMap, NumberMap, TextureTransform
+from api_schemas.maps import TABLE_FILTERS, Filter, Map, TextureTransform
+from api_schemas.relief import AnyMap, ParallaxMap
 from worker.images.pyramids import Cut
+from worker.images.relief import Preparation
 from worker.images.stored_form import BOX, StoredForm
 from worker.rendering.calls import call_of
 from worker.rendering.samplers import Sampling
@@ -28,11 +30,13 @@ class TextureSource(Protocol):
         *,
         levels: bool,
         cut: Cut | None = None,
+        preparation: Preparation | None = None,
         form: StoredForm = BOX,
     ) -> Texture:
         """Return the texture of a spec, with its mip levels if asked for, or as a table.
 
-        With a cut, the levels have as many holes as the texture.
+        With a cut, the levels have as many holes as the texture. With a preparation, it holds what
+        that asks for.
         """
 
 
@@ -67,12 +71,13 @@ class Lookups:
 
     def add(
         self,
-        mapped: ColorMap | NumberMap | NormalMap,
+        mapped: AnyMap,
         meaning: Meaning,
         cut: Cut | None = None,
+        preparation: Preparation | None = None,
     ) -> int:
         """Return the number of a map's lookup, which may be that of an earlier map."""
-        picture = self._picture(mapped, mapped.texture, meaning, cut)
+        picture = self._picture(mapped, meaning, cut, preparation)
         where = (mapped.coordinates, mapped.layout, mapped.transform)
         key = json.dumps([picture, mapped.filter, *(part and part.model_dump() for part in where)])
         if key not in self._found:
@@ -112,12 +117,24 @@ class Lookups:
                 found |= call.values(spec, number)
         return found
 
-    def _picture(self, mapped: Map, spec: TextureSpec, meaning: Meaning, cut: Cut | None) -> int:
+    def _picture(
+        self, mapped: AnyMap, meaning: Meaning, cut: Cut | None, preparation: Preparation | None
+    ) -> int:
         u, v = mapped.wrap if mapped.layout is None else mapped.layout.joins
-        sampling = Sampling.of((u, v), mapped.filter)
+        # The walk through a relief reads its levels itself, from no table.
+        walked = isinstance(mapped, ParallaxMap) and mapped.filter in TABLE_FILTERS
+        filter_name: Filter = "trilinear" if walked else mapped.filter
+        sampling = Sampling.of((u, v), filter_name)
         border = tuple(mapped.border_color) if "border" in (u, v) else (0.0,) * 4
-        form = StoredForm.of(mapped.filter, mapped.pyramid, (u, v), border)
-        texture = self._texture_of(spec, meaning, levels=sampling.levels, cut=cut, form=form)
+        form = StoredForm.of(filter_name, mapped.pyramid, (u, v), border)
+        texture = self._texture_of(
+            mapped.texture,
+            meaning,
+            levels=sampling.levels,
+            cut=cut,
+            preparation=preparation,
+            form=form,
+        )
         picture = Picture(texture, sampling, border)
         if picture not in self.pictures:
             self.pictures.append(picture)

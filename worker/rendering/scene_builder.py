@@ -23,13 +23,15 @@ from worker.geometry.tangents import with_tangents
 from worker.geometry.transforms import Matrix, parent_from_node
 from worker.images.image import Image
 from worker.images.pyramids import Cut
+from worker.images.relief import Preparation, prepared
 from worker.images.stored_form import BOX, StoredForm, stored
 from worker.models.model import Model, Part
 from worker.rendering.cache import ByteCache
 from worker.rendering.displacing import with_relief
 from worker.rendering.model_changes import seen_parts
 from worker.rendering.pyrender_scene import Background, Drawable, View
-from worker.rendering.shading import Shading, shade, tangent_uv_set
+from worker.rendering.relief_shading import TangentsWanted, tangents_wanted
+from worker.rendering.shading import Shading, shade
 from worker.rendering.staging import PlacedModel, lights_of, view_of
 from worker.rendering.textures import Texture
 from worker.rendering.vertex_arrays import VertexArray
@@ -168,18 +170,18 @@ class SceneBuilder:
         self._meshes.trim()
 
     def _kept(self, item: _Placed, tangents: bool) -> VertexArray:
-        uv_set = tangent_uv_set(item.surface)
-        if tangents and uv_set is None:
-            uv_set = 0
+        wanted = tangents_wanted(item.surface)
+        if tangents and wanted is None:
+            wanted = TangentsWanted(0, item.surface.tangents)
 
         def make() -> tuple[VertexArray, int]:
             mesh = item.mesh()
-            if uv_set is not None:
-                mesh = with_tangents(mesh, uv_set)
+            if wanted is not None:
+                mesh = with_tangents(mesh, wanted.uv_set)
             uploaded = VertexArray.upload(mesh)
             return uploaded, uploaded.size_bytes
 
-        return self._meshes.get((item.key, uv_set), make)
+        return self._meshes.get((item.key, wanted), make)
 
     def _shading(self, surface: SurfaceSpec, maker: TextureMaker) -> Shading:
         def texture_of(
@@ -188,12 +190,16 @@ class SceneBuilder:
             *,
             levels: bool,
             cut: Cut | None = None,
+            preparation: Preparation | None = None,
             form: StoredForm = BOX,
         ) -> Texture:
             cut = cut if levels or form.kind == "ripmap" else None
             form = form if levels or form.is_table else BOX
-            key = (spec.model_dump_json(), meaning, levels, cut, form)
-            return self._textures.get(key, lambda: _upload(maker(spec, meaning), levels, cut, form))
+            key = (spec.model_dump_json(), meaning, levels, cut, preparation, form)
+            return self._textures.get(
+                key,
+                lambda: _upload(prepared(maker(spec, meaning), preparation), levels, cut, form),
+            )
 
         return shade(surface, texture_of)
 

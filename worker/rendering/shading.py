@@ -10,17 +10,19 @@ from typing import Any, cast
 
 import numpy as np
 
-from api_schemas.coordinates.uv import UvSpec
 from api_schemas.families import Meaning, SurfaceSpec, TextureSpec
 from api_schemas.language import FAMILIES
-from api_schemas.maps import ColorMap, NormalMap, NumberMap
+from api_schemas.maps import ColorMap, NumberMap
+from api_schemas.relief import AnyMap
 from worker.errors import RenderError
 from worker.images.pyramids import Cut
+from worker.images.relief import Preparation
+from worker.rendering import relief_shading
 from worker.rendering.calls import choice
 from worker.rendering.chunks import chunk
-from worker.rendering.lookups import Lookups, Picture, TextureSource, turn
+from worker.rendering.lookups import Lookups, Picture, TextureSource
 from worker.rendering.samplers import Sampling
-from worker.rendering.shading_layout import Parameter, PictureLayout, ShadingLayout
+from worker.rendering.shading_layout import Parameter, PictureLayout, ReliefLayout, ShadingLayout
 
 _STRUCT = re.compile(r"^struct Surface \{(?P<fields>.*?)^\};", re.MULTILINE | re.DOTALL)
 _FIELD = re.compile(r"^ +(?P<type>float|vec3|int) (?P<name>\w+);", re.MULTILINE)
@@ -64,7 +66,7 @@ def shade(surface: SurfaceSpec, texture_of: TextureSource) -> Shading:
         for name, kind in surface_fields(surface.technique).items()
     )
     opacity = plan.opacity(surface)
-    normal = None if surface.normal is None else plan.normal(surface.normal)
+    relief = plan.relief(surface)
     tables = surface_tables(surface.technique)
     pictures = (*plan.lookups.pictures, *(_table(spec, texture_of) for spec in tables.values()))
     layout = ShadingLayout(
@@ -72,7 +74,7 @@ def shade(surface: SurfaceSpec, texture_of: TextureSource) -> Shading:
         parameters=parameters,
         alpha_mode=surface.alpha_mode,
         opacity=opacity,
-        normal=normal,
+        relief=relief,
         lookups=plan.lookups.layouts,
         pictures=tuple(
             PictureLayout(picture.sampling, picture.texture.format) for picture in pictures
@@ -101,14 +103,6 @@ def surface_tables(technique: str) -> dict[str, TextureSpec]:
 
 def _table(spec: TextureSpec, texture_of: TextureSource) -> Picture:
     return Picture(texture_of(spec, "data", levels=False), _TABLE_SAMPLING, (0.0,) * 4)
-
-
-def tangent_uv_set(surface: SurfaceSpec) -> int | None:
-    """Return which of a mesh's uv sets its tangents follow, if the surface needs tangents."""
-    if surface.normal is None:
-        return 0 if surface.needs_tangents else None
-    coordinates = surface.normal.coordinates
-    return coordinates.set if isinstance(coordinates, UvSpec) else 0
 
 
 class _Plan:
@@ -145,22 +139,15 @@ class _Plan:
                 cut = Cut(channel, mapped.scale, mapped.bias, surface.alpha_cutoff)
         return self.parameter(surface, "opacity", "float", cut)
 
-    def normal(self, mapped: NormalMap) -> int:
-        """Lay out a normal map; return its lookup."""
-        self.uniforms["normal_range"] = (2.0, -1.0) if mapped.range == "unit" else (1.0, 0.0)
-        self.uniforms["normal_axes"] = _normal_axes(mapped).ravel()
-        return self.lookups.add(mapped, "data")
+    def relief(self, surface: SurfaceSpec) -> ReliefLayout:
+        """Lay out what tilts, raises or deepens the surface."""
 
+        def look_up(mapped: AnyMap, preparation: Preparation | None) -> int:
+            return self.lookups.add(mapped, "data", preparation=preparation)
 
-def _normal_axes(mapped: NormalMap) -> np.ndarray:
-    """Give the 2 x 2 matrix that takes a normal map's x and y to where u and v grow.
-
-    A picture that is turned or mirrored on the surface has its own x and y turned or mirrored.
-    """
-    mirrored = np.where(np.array(mapped.transform.scale) < 0, -1.0, 1.0)
-    green = 1.0 if mapped.green == "up" else -1.0
-    picture_from_uv = turn(mapped.transform) * mirrored
-    return picture_from_uv.T * (mapped.strength * np.array([1.0, green]))
+        layout, uniforms = relief_shading.lay_out(surface, look_up)
+        self.uniforms |= uniforms
+        return layout
 
 
 def _plain(surface: SurfaceSpec, name: str, kind: str, value: Any) -> Any:

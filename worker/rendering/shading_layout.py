@@ -1,6 +1,7 @@
 """What decides a surface's program: everything the compiler must know, and nothing else."""
 
 from dataclasses import dataclass
+from typing import Literal
 
 from api_schemas.families import AlphaMode
 from api_schemas.maps import Filter
@@ -32,6 +33,11 @@ class LookupLayout:
     filter: Filter
     picture: int
 
+    @property
+    def returns(self) -> str:
+        """The GLSL type of what says where: a Footprint, a Reach or a Triplanar."""
+        return self.calls[-1].returns
+
 
 @dataclass(frozen=True, slots=True)
 class PictureLayout:
@@ -39,6 +45,33 @@ class PictureLayout:
 
     sampling: Sampling
     format: TextureFormat
+
+
+@dataclass(frozen=True, slots=True)
+class ReliefLayout:
+    """What moves and tilts a point before anything else is read.
+
+    Attributes:
+        normal: The lookup of a map of normals, if there is one.
+        normal_space: What these are relative to.
+        bump: The lookup of a bump map.
+        height: The lookup of a relief's heights and slopes.
+        parallax: The lookup of a relief that the eye looks into.
+        parallax_method: How it looks.
+    """
+
+    normal: int | None
+    normal_space: Literal["tangent", "object"]
+    bump: int | None
+    height: int | None
+    parallax: int | None
+    parallax_method: Literal["offset", "occlusion"]
+
+    @property
+    def tilting(self) -> tuple[int, ...]:
+        """The lookups that tilt the normal."""
+        found = (self.normal, self.bump, self.height)
+        return tuple(lookup for lookup in found if lookup is not None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +83,7 @@ class ShadingLayout:
         parameters: In the order of its struct.
         alpha_mode: Whether opacity is ignored, cuts holes, or lets through what is behind.
         opacity: How it is read, unless it is ignored.
-        normal: The lookup that tilts the normal, if there is a normal map.
+        relief: What moves and tilts the point.
         lookups: Readings of pictures.
         pictures: Texture units of maps, then of tables.
         tables: What the surface's own tables are called.
@@ -60,7 +93,7 @@ class ShadingLayout:
     parameters: tuple[Parameter, ...]
     alpha_mode: AlphaMode
     opacity: Parameter | None
-    normal: int | None
+    relief: ReliefLayout
     lookups: tuple[LookupLayout, ...]
     pictures: tuple[PictureLayout, ...]
     tables: tuple[str, ...]

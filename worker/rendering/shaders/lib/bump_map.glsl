@@ -1,3 +1,4 @@
+#include "lib/leaned.glsl"
 #include "lib/surface_point.glsl"
 uniform vec4 bump_axes;
 

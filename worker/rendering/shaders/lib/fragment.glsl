@@ -24,6 +24,7 @@ SurfacePoint surface_point() {
         vertex_object_position,
         normal,
         normal,
+        outer,
         normalize(eye.xyz - eye.w * vertex_position),
         vertex_tangent,
         vertex_color,

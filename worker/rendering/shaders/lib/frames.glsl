@@ -20,17 +20,21 @@ Reach position_in(SurfacePoint point, const int frame) {
     return Reach(position.place + eye_position, position.across_x, position.across_y);
 }
 
+// Unit length, or none where there is none.
+vec3 unit(vec3 vector) {
+    return vector / max(length(vector), 1e-30);
+}
+
 // A direction of the world. The inverse of what takes normals to the world, transposed, is the
 // matrix that took positions there.
 Reach direction_in(vec3 direction, const int frame) {
-    Reach reach = difference_of(direction);
-    if (frame == 1) return turned(transpose(normal_from_object), reach);
-    if (frame == 2) return turned(camera_from_world, reach);
-    return reach;
+    if (frame == 1) return difference_of(unit(transpose(normal_from_object) * direction));
+    if (frame == 2) return difference_of(camera_from_world * direction);
+    return difference_of(direction);
 }
 
-// A normal of the world, of any length.
+// A normal of the world.
 Reach normal_in(vec3 normal, const int frame) {
-    if (frame == 1) return turned(transpose(mat3(eye_from_object)), difference_of(normal));
+    if (frame == 1) return difference_of(unit(transpose(mat3(eye_from_object)) * normal));
     return direction_in(normal, frame);
 }

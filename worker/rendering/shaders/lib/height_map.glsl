@@ -1,3 +1,4 @@
+#include "lib/leaned.glsl"
 #include "lib/lookup.glsl"
 #include "lib/relief.glsl"
 uniform float height_depth;
@@ -21,9 +22,9 @@ vec3 height_lean(SurfacePoint point, vec3 normal, float texel, vec2 changes) {
     vec3 y = surface.across_y + changes.y * surface.normal;
     if (height_exact) {
         float height = height_depth * (texel - height_middle);
-        vec3 outer = normalize(transpose(mat3(eye_from_object)) * normal);
-        x += height * laid(change_x(outer), surface.normal);
-        y += height * laid(change_y(outer), surface.normal);
+        Reach turning = reach_of(surface.normal);
+        x += height * laid(turning.across_x, surface.normal);
+        y += height * laid(turning.across_y, surface.normal);
     }
     vec3 raised = cross(x, y) * sign(surface.area);
     float facing = dot(raised, surface.normal);

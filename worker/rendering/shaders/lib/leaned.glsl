@@ -1,3 +1,10 @@
+#include "lib/surface_point.glsl"
+
+// The smooth unit normal on the outer side.
+vec3 outer_of(SurfacePoint point) {
+    return gl_FrontFacing ? point.smooth_normal : -point.smooth_normal;
+}
+
 // The normal on the eye's side, tilted further by what is added to it on the outer side.
 vec3 leaned(vec3 normal, vec3 lean) {
     vec3 outer = (gl_FrontFacing ? normal : -normal) + lean;

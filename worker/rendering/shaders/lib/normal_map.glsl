@@ -1,3 +1,4 @@
+#include "lib/held_normal.glsl"
 #include "lib/surface_point.glsl"
 
 // n = x T + y B + z N with B = sign cross(N, T), of N and T as they are interpolated, not made unit

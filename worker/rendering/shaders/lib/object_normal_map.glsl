@@ -1,4 +1,5 @@
-#include "lib/object_frame.glsl"
+#include "lib/held_normal.glsl"
+#include "lib/frames.glsl"
 #include "lib/surface_point.glsl"
 uniform float normal_strength;
 

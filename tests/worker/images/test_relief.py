@@ -1,0 +1,83 @@
+"""Texels of bump maps and reliefs: what they mean (T10, T12)."""
+
+import numpy as np
+import pytest
+
+from worker.images.image import Image
+from worker.images.relief import Decoded, Slopes, decode, prepared
+
+
+def test_a1_signed_and_unsigned_bytes_are_decoded_as_the_book_says():
+    signed = np.array([-128, -127, 0, 64, 127])
+    held = (signed % 256) / 255  # as a picture holds a byte in two's complement
+
+    assert decode(held, "snorm8") == pytest.approx([-1, -1, 0, 64 / 127, 1], abs=6e-8)
+    assert pytest.approx(0.503937008, abs=1e-9) == 64 / 127
+    unsigned = decode(np.array([0, 128, 255]) / 255, "unorm8")
+    assert unsigned == pytest.approx([-1, 0.003921569, 1], abs=6e-8)  # float32 rounds them
+
+
+def test_unsigned_bytes_have_no_zero():
+    around = decode(np.array([127, 128]) / 255, "unorm8")
+
+    assert around == pytest.approx([-1 / 255, 1 / 255], abs=1e-8)
+
+
+def test_every_byte_survives_float32_and_is_decoded_right():
+    bytes_held = np.arange(256)
+
+    found = decode((bytes_held / 255).astype(np.float32), "snorm8")
+
+    expected = np.maximum(bytes_held.astype(np.uint8).view(np.int8).astype(float), -127) / 127
+    assert found == pytest.approx(expected, abs=6e-8)
+
+
+def test_floats_are_the_tilts_themselves():
+    assert decode(np.float32([-3.5, 0, 2]), "float").tolist() == [-3.5, 0, 2]
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
+@pytest.mark.parametrize("encoding", ["snorm8", "unorm8", "float"])
+def test_what_is_no_number_does_not_come_through(encoding, bad):
+    image = Image(np.float32([[[bad, 0.5]]]), "data")
+
+    assert np.isfinite(prepared(image, Decoded(encoding)).pixels).all()
+
+
+def test_one_channel_tilts_along_both_directions():
+    image = Image(np.float32([[[0.75]]]), "data")
+
+    assert prepared(image, Decoded("unorm8")).pixels.tolist() == [[[0.5, 0.5]]]
+
+
+def relief(heights, channel=0, wrap=("repeat", "repeat")):
+    image = Image(np.float32(heights).reshape(*np.shape(heights)[:2], -1), "data")
+    return prepared(image, Slopes(channel, wrap)).pixels
+
+
+def test_slopes_are_per_tile_with_v_up():
+    side = 64
+    u, v = np.meshgrid((np.arange(side) + 0.5) / side, 1 - (np.arange(side) + 0.5) / side)
+
+    found = relief(3 * u - 2 * v, wrap=("clamp", "clamp"))[1:-1, 1:-1]
+
+    assert found[..., 1] == pytest.approx(np.full((62, 62), 3), abs=1e-5)
+    assert found[..., 2] == pytest.approx(np.full((62, 62), -2), abs=1e-5)
+
+
+def test_slopes_go_round_the_edges_of_what_repeats_only():
+    row = [[0.0, 1.0, 2.0, 5.0]]
+
+    assert relief(row)[0, :, 1].tolist() == [-8.0, 4.0, 8.0, -4.0]
+    assert relief(row, wrap=("clamp", "repeat"))[0, :, 1].tolist() == [2.0, 4.0, 8.0, 6.0]
+
+
+def test_a_channel_that_is_missing_is_flat():
+    assert relief(np.zeros((2, 2, 3)), channel=3).tolist() == [[[1.0, 0.0, 0.0]] * 2] * 2
+    assert relief(np.arange(4.0).reshape(2, 2), channel=2)[..., 0].tolist() == [[0, 1], [2, 3]]
+
+
+def test_slopes_of_holes_and_cliffs_are_numbers():
+    found = relief([[np.nan, np.inf], [-np.inf, 3e38]])
+
+    assert np.isfinite(found).all()

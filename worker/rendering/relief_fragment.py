@@ -1,0 +1,73 @@
+"""The part of a fragment shader that moves and tilts a point before its surface is read."""
+
+from collections.abc import Callable
+
+from worker.rendering.shading_layout import ReliefLayout, ShadingLayout
+
+_NORMALS = {
+    "tangent": ("lib/normal_map.glsl", "tilted_normal"),
+    "object": ("lib/object_normal_map.glsl", "own_normal"),
+}
+
+
+def relief_chunks(relief: ReliefLayout) -> list[str]:
+    """Return the chunks that a relief needs."""
+    chunks = []
+    if relief.parallax is not None:
+        chunks.append("lib/parallax.glsl")
+    if relief.normal is not None:
+        chunks.append(_NORMALS[relief.normal_space][0])
+    if relief.bump is not None:
+        chunks.append("lib/bump_map.glsl")
+    if relief.height is not None:
+        chunks.append("lib/height_map.glsl")
+    return chunks
+
+
+def aside(layout: ShadingLayout, place: Callable[[int], str]) -> list[str]:
+    """Write how many pixels aside all maps are read; `place` gives the footprint of a lookup."""
+    parallax = layout.relief.parallax
+    if parallax is None:
+        return []
+    picture = layout.lookups[parallax].picture
+    return [
+        f"    vec2 aside = parallax_{layout.relief.parallax_method}(picture_{picture}, "
+        f"{place(parallax)}, {_how(parallax)}, parallax_reach(point, vertex_normal));"
+    ]
+
+
+def tilts(
+    relief: ReliefLayout, read: Callable[[int], list[str]], place: Callable[[int], str]
+) -> list[str]:
+    """Write how the normal leans.
+
+    Args:
+        relief: What there is.
+        read: Gives the lines that read a lookup's texel.
+        place: Gives the footprint of a lookup.
+    """
+    lines = []
+    if relief.normal is not None:
+        tilted = _NORMALS[relief.normal_space][1]
+        held = f"held_normal(texel_{relief.normal})"
+        lines += read(relief.normal)
+        lines.append(f"    point.normal = {tilted}(point, vertex_normal, {held});")
+    leans = []
+    if relief.bump is not None:
+        lines += read(relief.bump)
+        leans.append(f"bump_lean(point, outer_of(point), texel_{relief.bump}.xy)")
+    if relief.height is not None:
+        lines += read(relief.height)
+        number = relief.height
+        leans.append(
+            f"height_lean(point, outer_of(point), texel_{number}.x, height_changes("
+            f"texel_{number}.yz, look_up({place(number)}, {_how(number)}), "
+            f"lookup_period[{number}]))"
+        )
+    if leans:
+        lines.append(f"    point.normal = leaned(point.normal, {' + '.join(leans)});")
+    return lines
+
+
+def _how(number: int) -> str:
+    return f"lookup_transform[{number}], lookup_period[{number}], lookup_size[{number}]"
