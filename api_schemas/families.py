@@ -57,6 +57,10 @@ class TextureSpec(TechniqueSpec):
         """Estimate this technique at a number of pixels, without the textures nested in it."""
         return Cost(seconds=pixels * 2e-8, bytes=pixels * 32)
 
+    def volume_cost(self, voxels: int) -> Cost:
+        """Estimate the same as a volume, where that does not just cost as much for each voxel."""
+        return self.cost(voxels)
+
 
 class CoordinatesSpec(TechniqueSpec):
     """Says which vector of the surface point a map is looked up with."""

@@ -29,7 +29,7 @@ class ToonSpec(CoordinatesSpec):
     )
     power: NonNegative = Field(
         default=1.0,
-        description="How narrow facing or highlight are: larger keeps the upper rows to the middle.",
+        description="How narrow these two are: larger keeps the upper rows in the middle.",
     )
     near: Length = Field(
         default=1.0, description="Up to this distance from the eye the uppermost row is used."

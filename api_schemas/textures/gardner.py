@@ -14,8 +14,9 @@ Cycles = Annotated[int, Field(ge=-1024, le=1024), WHOLE]
 class Wave(Schema):
     """One wave across the tile."""
 
-    cycles: Annotated[list[Cycles], Field(min_length=2, max_length=2)] = Field(
-        description="How often it swings per tile along u and along v; whole, so the tile repeats."
+    cycles: Annotated[list[Cycles], Field(min_length=2, max_length=3)] = Field(
+        description="How often it swings per tile along u, v and, in a solid, w; whole, so the "
+        "tile repeats."
     )
     phase: Angle = Field(
         default=0.0, description="Angle of the cosine at the lower left corner, in radians."
@@ -27,10 +28,11 @@ class GardnerSpec(TextureSpec):
 
     source: ClassVar[str] = "Gardner, 1985"
     equation: ClassVar[str] = (
-        "(1/n) sum_i cos(2 pi (a_i u + b_i v) + c_i), "
-        "frequency <= |(a_i, b_i)| <= frequency + bandwidth"
+        "(1/n) sum_i cos(2 pi (a_i u + b_i v [+ c_i w]) + d_i), "
+        "frequency <= |(a_i, b_i[, c_i])| <= frequency + bandwidth"
     )
     meaning: ClassVar[Meaning] = "data"
+    solid: ClassVar[bool] = True
 
     technique: Literal["gardner"]
     frequency: Annotated[int, Field(ge=1, le=512), WHOLE] = Field(
@@ -61,3 +63,9 @@ class GardnerSpec(TextureSpec):
             seconds=pixels * (5e-9 + 5e-10 * waves) + candidates * 2e-7,
             bytes=pixels * (4.0 + waves / 8) + candidates * 64.0,
         )
+
+    def volume_cost(self, voxels: int) -> Cost:
+        """The same product for each slice, after a search among the waves of space."""
+        cost = self.cost(voxels)
+        candidates = 0 if self.waves else 4 * (self.frequency + self.bandwidth) ** 3
+        return Cost(cost.seconds + candidates * 2e-7, cost.bytes + candidates * 96.0)

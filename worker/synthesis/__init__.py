@@ -16,7 +16,12 @@ One whose spec is `solid` but not `pointwise` also has
         spec, size: tuple[int, int, int], inputs: Mapping[str, Volume], report: Report
     ) -> Volume
 
-with size = (width, height, depth) and the volumes of its fields.
+with size = (width, height, depth) and the volumes of its fields. One that is a formula has
+
+    def closed_form(spec, *, solid: bool) -> Mapping[str, Parameter] | None
+
+which gives the arguments of its GLSL chunk (`worker.closed_form`), or None for a spec of which
+there is no formula. What its fields hold is left out; the chunk takes it as `<field>_value`.
 A module with kernels also has `warm()`, which compiles them. A leading underscore marks pieces
 that techniques share.
 """
@@ -32,6 +37,7 @@ from api_schemas.families import Meaning, TextureSpec
 from api_schemas.language import FAMILIES
 from api_schemas.textures.image import ImageSpec
 from api_schemas.walk import meaning_of
+from worker.closed_form import ClosedForm
 from worker.images.volume import Volume
 from worker.stages import silent
 from worker.synthesis.outcome import Outcome
@@ -150,6 +156,29 @@ def synthesize_volume(
         return volume
 
     return make(spec, meaning)
+
+
+def closed_form(
+    spec: TextureSpec, *, solid: bool, meaning: Meaning = "colour"
+) -> ClosedForm | None:
+    """Return a texture, with all nested in it, as a formula; None where there is none.
+
+    Args:
+        spec: A texture of any technique.
+        solid: Whether it is asked for in space, else in the plane w = 0.
+        meaning: Of the slot that the texture itself is in.
+    """
+    module = _module(spec.technique)
+    parameters = module.closed_form(spec, solid=solid) if hasattr(module, "closed_form") else None
+    if parameters is None:
+        return None
+    inputs = {}
+    for name, (nested, slot) in _slots(spec, meaning).items():
+        found = closed_form(nested, solid=solid, meaning=slot)
+        if found is None:
+            return None
+        inputs[name] = found
+    return ClosedForm(spec.technique, parameters, inputs)
 
 
 def techniques() -> list[str]:

@@ -19,12 +19,17 @@ def mixed(counter: NDArray[np.uint64]) -> NDArray[np.uint64]:
     return scrambled
 
 
-def hashes(seed: int, use: int, count: int) -> NDArray[np.uint64]:
-    """Return `count` (up to 2^32) random 64-bit numbers; every `use` of a seed gives others."""
-    start = mixed(np.array([seed * 2**32 + use], np.uint64))
-    return mixed(start ^ np.arange(count, dtype=np.uint64))
+def key(seed: int, use: int) -> int:
+    """Return what the counters of a use of a seed are combined with."""
+    return int(mixed(np.array([seed * 2**32 + use], np.uint64))[0])
 
 
-def uniforms(seed: int, use: int, count: int) -> NDArray[np.float64]:
+def hashes(seed: int, use: int, count: int, first: int = 0) -> NDArray[np.uint64]:
+    """Return random 64-bit numbers `first` to `first + count`; every `use` of a seed has others."""
+    counters = np.arange(first, first + count, dtype=np.uint64)
+    return mixed(np.uint64(key(seed, use)) ^ counters)
+
+
+def uniforms(seed: int, use: int, count: int, first: int = 0) -> NDArray[np.float64]:
     """Return `count` random numbers in [0, 1), multiples of 2^-53."""
-    return (hashes(seed, use, count) >> np.uint64(11)).astype(np.float64) * 2.0**-53
+    return (hashes(seed, use, count, first) >> np.uint64(11)).astype(np.float64) * 2.0**-53

@@ -66,7 +66,7 @@ def folding(spec: PerlinSpec, gradients: str) -> Folding:
         return Folding(1, 0.0, absolute, *((1.0, 0.0) if unit else (2.0, -1.0)))
     if spec.sum == "ridged":
         return Folding(2, 0.0, 1 - 2 * absolute + square, 1.0, 0.0)
-    most = np.prod([1 + spec.gain**n for n in range(spec.octaves)])
+    most = float(np.prod([1 + spec.gain**n for n in range(spec.octaves)]))
     return Folding(3, 1.0, 0.0, 1 / most if unit else 1.0, 0.0)
 
 
@@ -96,9 +96,9 @@ def fold(
             noise.reshape(-1),
             carried.reshape(-1),
             how.kind,
-            np.float32(gain),
-            np.float32(octave.visibility),
-            np.float32(how.rest),
+            gain,
+            octave.visibility,
+            how.rest,
         )
     values *= np.float32(how.scale)
     values += np.float32(how.bias)

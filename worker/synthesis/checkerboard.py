@@ -16,11 +16,12 @@ from worker.images.image import Image
 from worker.images.volume import Volume
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from numpy.typing import NDArray
 
     from api_schemas.textures.checkerboard import CheckerboardSpec
+    from worker.closed_form import Parameter
     from worker.stages import Report
 
 _BAND_ROWS = 64
@@ -41,9 +42,48 @@ def synthesize_volume(
     """Average the solid tile over each voxel of (width, height, depth)."""
     width, height, depth = size
     down = _mean_signs(spec.cells[1], height)[::-1]
-    away = _mean_signs((spec.cells * 2)[2], depth)
+    away = _mean_signs(_cells(spec)[2], depth)
     rows = _blended(spec, _mean_signs(spec.cells[0], width), np.outer(away, down).ravel())
     return Volume(rows.reshape(depth, height, width, -1), spec.meaning)
+
+
+def color_at(
+    spec: CheckerboardSpec, places: NDArray[np.float64], reach: Sequence[float]
+) -> NDArray[np.float64]:
+    """Return colours (n, 3) averaged over boxes around points of the plane or of space.
+
+    Args:
+        spec: The colours.
+        places: (n, 2) or (n, 3), in tiles.
+        reach: Lengths of a box along each axis, in tiles; without one there is no average.
+    """
+    signs = np.ones(len(places))
+    for place, cells, length in zip(places.T, _cells(spec), reach, strict=False):
+        x, half = (place - np.floor(place)) * cells, 0.5 * cells * length
+        if half:
+            signs *= (_triangle(x + half) - _triangle(x - half)) / (2 * half)
+        else:
+            signs *= 1 - 2 * (np.floor(x) % 2)
+    share = (0.5 + 0.5 * signs)[:, np.newaxis]
+    first, second = np.array(spec.colors, np.float32).astype(np.float64)
+    colors: NDArray[np.float64] = share * first + (1 - share) * second
+    return colors
+
+
+def closed_form(spec: CheckerboardSpec, *, solid: bool) -> Mapping[str, Parameter]:
+    """Return cells along each axis, none along w in a plane, and the colours."""
+    cells = np.array(_cells(spec), np.float32) * (1, 1, solid)
+    first, second = np.array(spec.colors, np.float32)
+    return {"cells": cells, "first": first, "second": second}
+
+
+def _cells(spec: CheckerboardSpec) -> tuple[int, int, int]:
+    u, v, w = (spec.cells * 2)[:3]
+    return u, v, w
+
+
+def _triangle(x: NDArray[np.float64]) -> NDArray[np.float64]:
+    return 1 - abs(1 - x % 2)
 
 
 def _blended(

@@ -40,6 +40,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from worker.closed_form import Parameter
     from worker.stages import Report
     from worker.synthesis._perlin_octaves import Octave
 
@@ -118,6 +119,34 @@ def noise_at(
     return values, slopes[:, :axes]
 
 
+def closed_form(spec: PerlinSpec, *, solid: bool) -> Mapping[str, Parameter] | None:
+    """Return what makes the octaves and brings them together; slopes have no formula."""
+    if spec.output == "slope":
+        return None
+    gradients = _gradients(spec, solid=solid)
+    octaves = octaves_of(spec, np.inf)
+    how = folding(spec, gradients)
+    moments = [_moment(spec, octave.beats) for octave in octaves]
+    first = octaves[0]
+    return {
+        "table": permutation(spec.seed).reshape(64, 4).astype(np.float32),
+        "fade": FADES[spec.fade].astype(np.float32),
+        "set": list(GRADIENTS).index(gradients),
+        "kind": how.kind,
+        "octaves": len(octaves),
+        "frequency": spec.frequency,
+        "lacunarity": spec.lacunarity,
+        "gain": spec.gain,
+        "share": first.gain if spec.sum == "multifractal" else first.share,
+        "depth": 0.0 if solid else (spec.depth or 0.0) % 1,
+        "moments": np.array(moments, np.float32),
+        "start": how.start,
+        "rest": how.rest,
+        "scale": how.scale,
+        "bias": how.bias,
+    }
+
+
 def warm() -> None:
     """Compile the kernels."""
     spec = PerlinSpec(technique="perlin", frequency=1)
@@ -125,6 +154,12 @@ def warm() -> None:
     synthesize(spec.model_copy(update={"sum": "ridged"}), (4, 4), {}, silent)
     synthesize(spec.model_copy(update={"output": "slope"}), (4, 4), {}, silent)
     synthesize_volume(spec, (4, 4, 4), {}, silent)
+
+
+def _moment(spec: PerlinSpec, beats: int) -> tuple[int, int, float]:
+    """Return the lattice indices before and after the time asked, and the part between them."""
+    part, whole = np.modf((spec.time or 0.0) % 1 * beats)
+    return int(whole) % beats % 256, (int(whole) + 1) % beats % 256, float(part)
 
 
 def _slopes(spec: PerlinSpec, shape: tuple[int, ...], pixels_per_tile: int) -> Floats:

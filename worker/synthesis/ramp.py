@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from api_schemas.textures.ramp import RampSpec
+    from worker.closed_form import Parameter
     from worker.stages import Report
 
 _INTERPOLATIONS = {"linear": 0, "smooth": 1, "step": 2}
@@ -28,24 +29,41 @@ def synthesize(
     Stops count by position; of several at one position the one written last begins there and the
     one written first ends there. NaN takes the first colour.
     """
-    stops = sorted(spec.stops, key=lambda stop: stop.position)
-    colors = np.array([stop.color for stop in stops], np.float64)
+    positions, colors = _stops(spec)
     width, height = size
     pixels = np.empty((height, width, colors.shape[1]), np.float32)
     _fill_ramp(
         pixels,
         np.array(inputs["input"].pixels[..., 0]),
-        np.array([stop.position for stop in stops]),
+        positions,
         colors,
         _INTERPOLATIONS[spec.interpolation],
     )
     return Image(pixels, spec.meaning)
 
 
+def closed_form(spec: RampSpec, *, solid: bool) -> Mapping[str, Parameter]:
+    """Return the stops; the value they are picked by is the input."""
+    positions, colors = _stops(spec)
+    return {
+        "count": len(positions),
+        "interpolation": _INTERPOLATIONS[spec.interpolation],
+        "positions": positions.astype(np.float32),
+        "colors": colors.astype(np.float32),
+    }
+
+
 def warm() -> None:
     """Compile the kernel."""
     pixels = np.empty((1, 1, 3), np.float32)
     _fill_ramp(pixels, np.zeros((1, 1), np.float32), np.zeros(1), np.zeros((1, 3)), 0)
+
+
+def _stops(spec: RampSpec) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return rising positions (n,) and colours (n, 3)."""
+    stops = sorted(spec.stops, key=lambda stop: stop.position)
+    positions = np.array([stop.position for stop in stops])
+    return positions, np.array([stop.color for stop in stops], np.float64)
 
 
 @parallel_kernel

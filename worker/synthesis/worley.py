@@ -1,10 +1,11 @@
-"""Distances to the nearest of scattered points (Worley, 1996).
+"""Distances to the nearest of scattered points, in a plane or in space (Worley, 1996).
 
-The tile is frequency x frequency square cells. Points lie one in each cell or, as a Poisson process
-of density 1, as many as chance puts there; a tile always has at least one. Distances are counted in
-cells. The search is exact: rings of cells around the pixel are looked at until the next ring cannot
-hold a nearer point. Cells and points beyond the tile are those of its copies, and a pixel's place
-within its cell is a fraction of whole numbers, so the tile repeats bit for bit.
+The tile is frequency x frequency square cells, or as many cubes. Points lie one in each cell or, as
+a Poisson process of density 1, as many as chance puts there; a tile always has at least one.
+Distances are counted in cells. The search is exact: rings, or shells, of cells around the pixel are
+looked at until the next one cannot hold a nearer point. Cells and points beyond the tile are those
+of its copies, and a pixel's place within its cell is a fraction of whole numbers, so the tile
+repeats bit for bit.
 """
 
 from __future__ import annotations
@@ -15,27 +16,30 @@ import numpy as np
 
 from api_schemas.textures.worley import WorleySpec
 from worker.images.image import Image
+from worker.images.volume import Volume
 from worker.numba_kernel import kernel, parallel_kernel, prange
 from worker.stages import silent
-from worker.synthesis._counter_hash import uniforms
+from worker.synthesis._counter_hash import key, uniforms
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from numpy.typing import NDArray
 
+    from worker.closed_form import Parameter
     from worker.stages import Report
 
-_METRICS = {"euclidean": 0, "manhattan": 1, "chebyshev": 2}
-_OUTPUTS = {"f1": 0, "f2": 1, "difference": 2}
-# Shares of a Poisson process of density 1 with at most 0, 1, 2, .. points in a cell
-_POISSON = np.exp(-1) * np.cumsum(1 / np.cumprod([1.0, *range(1, 17)]))
+METRICS = {"euclidean": 0, "manhattan": 1, "chebyshev": 2}
+OUTPUTS = {"f1": 0, "f2": 1, "difference": 2}
+POISSON = np.exp(-1) * np.cumsum(1 / np.cumprod([1.0, *range(1, 17)]))
+"""Shares of a Poisson process of density 1 with at most 0, 1, 2, .. points in a cell."""
 
 
 class Points(NamedTuple):
     """Points by cell: those of cell c are starts[c] to starts[c + 1], places within it in 0..1.
 
-    Cell (i, j), counted from the lower left corner, is c = j * frequency + i.
+    Cell (i, j, k), counted from the lower left corner of the first slice, is
+    c = (k * frequency + j) * frequency + i; in a plane k is 0. Places are always (n, 3).
     """
 
     starts: NDArray[np.int64]
@@ -47,48 +51,112 @@ def synthesize(
 ) -> Image:
     """Measure distances at the pixel centres of (width, height): one channel of data, in cells."""
     width, height = size
-    values = distances(spec, np.arange(width), width, np.arange(height)[::-1], height)
+    values = distances(spec, [np.arange(width), np.arange(height)[::-1]], size)
     return Image(values[..., np.newaxis], spec.meaning)
 
 
-def distances(
-    spec: WorleySpec,
-    columns: NDArray[np.int64],
-    width: int,
-    rows: NDArray[np.int64],
-    height: int,
-) -> NDArray[np.float32]:
-    """Return distances where given columns and rows, counted from the lower left corner, cross.
+def synthesize_volume(
+    spec: WorleySpec, size: tuple[int, int, int], inputs: Mapping[str, Volume], report: Report
+) -> Volume:
+    """Measure distances at the voxel centres of (width, height, depth): one channel of data."""
+    width, height, depth = size
+    values = distances(spec, [np.arange(width), np.arange(height)[::-1], np.arange(depth)], size)
+    return Volume(values[..., np.newaxis], spec.meaning)
 
-    Columns and rows beyond `width` and `height` go on into the tile's copies.
+
+def distances(
+    spec: WorleySpec, indices: list[NDArray[np.int64]], counts: tuple[int, ...]
+) -> NDArray[np.float32]:
+    """Return distances where given pixels of two or three axes cross, the last axis first.
+
+    Args:
+        spec: The noise.
+        indices: Pixels along u, v and perhaps w, counted from the lower left corner of the first
+            slice; what lies beyond the counts goes on into the tile's copies.
+        counts: Pixels per tile along each.
     """
-    values = np.empty((len(rows), len(columns)), np.float32)
+    axes = [
+        np.divmod((2 * index + 1) * spec.frequency, 2 * count)
+        for index, count in zip(indices, counts, strict=True)
+    ]
+    cells, rests = zip(*axes, strict=True)
+    offsets = [rest / (2 * count) for rest, count in zip(rests, counts, strict=True)]
+    flat = len(indices) == 2
+    values = np.empty([len(index) for index in indices[::-1]], np.float32)
     _fill_distances(
-        values,
-        *np.divmod((2 * columns + 1) * spec.frequency, 2 * width),
-        width,
-        *np.divmod((2 * rows + 1) * spec.frequency, 2 * height),
-        height,
-        scatter(spec),
+        values[np.newaxis] if flat else values,
+        (*cells, np.zeros(1, np.int64)) if flat else cells,
+        (*offsets, np.zeros(1)) if flat else tuple(offsets),
+        scatter(spec, len(indices)),
         spec.frequency,
-        _METRICS[spec.metric],
-        _OUTPUTS[spec.output],
+        flat,
+        METRICS[spec.metric],
+        OUTPUTS[spec.output],
     )
     return values
 
 
-def scatter(spec: WorleySpec) -> Points:
-    """Scatter the points of a tile."""
-    cells = spec.frequency**2
+def distances_at(spec: WorleySpec, places: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return distances (n,) at points of the plane (n, 2) or of space (n, 3), in tiles."""
+    axes = places.shape[1]
+    where = np.zeros((len(places), 3))
+    where[:, :axes] = places * spec.frequency
+    values = np.empty(len(places))
+    _fill_distances_at(
+        values,
+        where,
+        scatter(spec, axes),
+        spec.frequency,
+        axes == 2,
+        METRICS[spec.metric],
+        OUTPUTS[spec.output],
+    )
+    return values
+
+
+def closed_form(spec: WorleySpec, *, solid: bool) -> Mapping[str, Parameter]:
+    """Return what the points are made from, and how distance is measured."""
+    cells = spec.frequency ** (3 if solid else 2)
+    poisson = spec.points == "poisson"
+    # Of more cells than a few one has a point, so nobody needs to look
+    lone = poisson and cells <= 64 and not _chance(spec, cells).any()
+    keys = [key(spec.seed, use) for use in range(4)]
+    return {
+        "frequency": spec.frequency,
+        "flat_tile": int(not solid),
+        "poisson": int(poisson),
+        "lone": int(lone),
+        "jitter": spec.jitter,
+        "metric": METRICS[spec.metric],
+        "shown": OUTPUTS[spec.output],
+        "keys": np.array([[k >> 16 * q & 0xFFFF for q in range(4)] for k in keys], np.float32),
+    }
+
+
+def scatter(spec: WorleySpec, axes: int = 2) -> Points:
+    """Scatter the points of a tile with two or three axes.
+
+    Point k of cell c has random numbers c + k * cells.
+    """
+    cells = spec.frequency**axes
     counts = np.ones(cells, np.int64)
     if spec.points == "poisson":
-        counts = np.searchsorted(_POISSON, uniforms(spec.seed, 0, cells), side="right")
+        counts = _chance(spec, cells)
         counts[0] += counts.sum() == 0
     starts = np.concatenate([[0], np.cumsum(counts)])
-    places = np.stack([uniforms(spec.seed, use, starts[-1]) for use in (1, 2)], axis=-1)
+    places = np.full((starts[-1], 3), 0.5)
+    for nth in range(counts.max()):
+        holds = counts > nth
+        for axis in range(axes):
+            numbers = uniforms(spec.seed, 1 + axis, cells, nth * cells)
+            places[starts[:-1][holds] + nth, axis] = numbers[holds]
     if spec.points == "one":
         places = 0.5 + spec.jitter * (places - 0.5)
     return Points(starts, places)
+
+
+def _chance(spec: WorleySpec, cells: int) -> NDArray[np.int64]:
+    return np.searchsorted(POISSON, uniforms(spec.seed, 0, cells), side="right")
 
 
 def warm() -> None:
@@ -99,55 +167,109 @@ def warm() -> None:
 @parallel_kernel
 def _fill_distances(
     values: NDArray[np.float32],
-    cells_u: NDArray[np.int64],
-    offsets_u: NDArray[np.int64],
-    width: int,
-    cells_v: NDArray[np.int64],
-    offsets_v: NDArray[np.int64],
-    height: int,
+    cells: tuple[NDArray[np.int64], ...],
+    offsets: tuple[NDArray[np.float64], ...],
     points: Points,
     period: int,
+    flat: bool,
     metric: int,
     output: int,
 ) -> None:
-    for row in prange(len(cells_v)):
-        y = offsets_v[row] / (2 * height)
-        for column in range(len(cells_u)):
-            x = offsets_u[column] / (2 * width)
-            first, second = _nearest(points, cells_u[column], cells_v[row], x, y, period, metric)
-            if metric == 0:
-                first, second = np.sqrt(first), np.sqrt(second)
-            values[row, column] = (first, second, second - first)[output]
+    depth, height, width = values.shape
+    for line in prange(depth * height):
+        away, row = line // height, line % height
+        for column in range(width):
+            values[away, row, column] = _distance(
+                points,
+                (cells[0][column], cells[1][row], cells[2][away]),
+                (offsets[0][column], offsets[1][row], offsets[2][away]),
+                period,
+                flat,
+                metric,
+                output,
+            )
+
+
+@kernel
+def _fill_distances_at(
+    values: NDArray[np.float64],
+    places: NDArray[np.float64],
+    points: Points,
+    period: int,
+    flat: bool,
+    metric: int,
+    output: int,
+) -> None:
+    for n in range(len(values)):
+        i, j, k = np.floor(places[n, 0]), np.floor(places[n, 1]), np.floor(places[n, 2])
+        values[n] = _distance(
+            points,
+            (int(i), int(j), int(k)),
+            (places[n, 0] - i, places[n, 1] - j, places[n, 2] - k),
+            period,
+            flat,
+            metric,
+            output,
+        )
+
+
+@kernel
+def _distance(
+    points: Points,
+    cell: tuple[int, int, int],
+    offset: tuple[float, float, float],
+    period: int,
+    flat: bool,
+    metric: int,
+    output: int,
+) -> float:
+    first, second = _nearest(points, cell, offset, period, flat, metric)
+    if metric == 0:
+        first, second = np.sqrt(first), np.sqrt(second)
+    return (first, second, second - first)[output]
 
 
 @kernel
 def _nearest(
-    points: Points, cell_u: int, cell_v: int, x: float, y: float, period: int, metric: int
+    points: Points,
+    cell: tuple[int, int, int],
+    offset: tuple[float, float, float],
+    period: int,
+    flat: bool,
+    metric: int,
 ) -> tuple[float, float]:
-    """Return the two smallest distances, squared if euclidean, from (x, y) within a cell."""
+    """Return the two smallest distances, squared if euclidean, from a place within a cell."""
     first = second = np.inf
+    x, y, z = offset
     margin = min(x, 1 - x, y, 1 - y)
+    if not flat:
+        margin = min(margin, z, 1 - z)
     ring = 0
     while True:
         reach = ring - 1 + margin
         if ring > 0 and second <= (reach * reach if metric == 0 else reach):
             return first, second
-        for j in range(-ring, ring + 1):
-            # Rows within the ring have cells at their two ends only
-            step = 1 if abs(j) == ring else 2 * ring
-            for i in range(-ring, ring + 1, max(step, 1)):
-                cell = (cell_v + j) % period * period + (cell_u + i) % period
-                for point in range(points.starts[cell], points.starts[cell + 1]):
-                    across = abs(i + points.places[point, 0] - x)
-                    up = abs(j + points.places[point, 1] - y)
-                    if metric == 0:
-                        distance = across * across + up * up
-                    elif metric == 1:
-                        distance = across + up
-                    else:
-                        distance = max(across, up)
-                    if distance < first:
-                        first, second = distance, first
-                    elif distance < second:
-                        second = distance
+        deep = 0 if flat else ring
+        for k in range(-deep, deep + 1):
+            for j in range(-ring, ring + 1):
+                # What is within the ring or shell has cells at its two ends only
+                whole = abs(j) == ring or (abs(k) == ring and not flat)
+                for i in range(-ring, ring + 1, 1 if whole else max(2 * ring, 1)):
+                    index = (cell[1] + j) % period * period + (cell[0] + i) % period
+                    if not flat:
+                        index += (cell[2] + k) % period * period * period
+                    for point in range(points.starts[index], points.starts[index + 1]):
+                        across = abs(i + points.places[point, 0] - x)
+                        up = abs(j + points.places[point, 1] - y)
+                        away = 0.0 if flat else abs(k + points.places[point, 2] - z)
+                        if metric == 0:
+                            distance = across * across + up * up + away * away
+                        elif metric == 1:
+                            distance = across + up + away
+                        else:
+                            distance = max(across, up, away)
+                        if distance < first:
+                            first, second = distance, first
+                        elif distance < second:
+                            second = distance
         ring += 1

@@ -7,7 +7,14 @@ from hypothesis import strategies as st
 
 from api_schemas.textures.gardner import GardnerSpec
 from worker.stages import silent
-from worker.synthesis.gardner import _angles, sum_of_cosines, synthesize, waves_of
+from worker.synthesis.gardner import (
+    _angles,
+    mean_at,
+    sum_of_cosines,
+    synthesize,
+    synthesize_volume,
+    waves_of,
+)
 
 # Float32 rounds both factors, products and sums of n terms of at most 1/n
 GEMM_ERROR = 1e-6
@@ -21,7 +28,7 @@ def picture(size, **fields):
     return synthesize(spec(**fields), size, {}, silent).pixels[..., 0]
 
 
-def test_the_sum_has_the_values_of_the_six_waves_of_t44():
+def test_a25_the_sum_has_the_values_of_the_six_waves_of_t44():
     waves = np.array(
         [
             (3, 1, 0.2),
@@ -76,7 +83,7 @@ def test_a_pixel_is_the_mean_over_its_area(size, waves):
 
 def test_a_fine_picture_is_the_sum_at_its_pixel_centres():
     fields = {"frequency": 2, "bandwidth": 3, "count": 9, "seed": 3}
-    cycles, phases = waves_of(spec(**fields))
+    cycles, phases = waves_of(spec(**fields), 2)
     u, v = np.meshgrid((np.arange(1024) + 0.5) / 1024, 1 - (np.arange(512) + 0.5) / 512)
 
     pixels = picture((1024, 512), **fields, range="signed")
@@ -107,10 +114,10 @@ def test_n_waves_have_the_variance_of_a_cosine_over_n():
 
 
 def test_no_wave_comes_twice_until_all_have_come():
-    cycles, _ = waves_of(spec(frequency=1, bandwidth=1, count=8, seed=9))
+    cycles, _ = waves_of(spec(frequency=1, bandwidth=1, count=8, seed=9), 2)
 
     # All whole points with 1 <= a^2 + b^2 <= 4, one of each opposite pair: six
-    pairs = [tuple(pair) for pair in cycles.tolist()]
+    pairs = [tuple(pair) for pair in cycles[:, :2].tolist()]
     assert len(set(pairs)) == 6
     assert all(1 <= a * a + b * b <= 4 for a, b in pairs)
     assert not {(-a, -b) for a, b in pairs} & set(pairs)
@@ -130,3 +137,38 @@ def test_waves_finer_than_the_pixels_leave_their_mean():
     wave = {"cycles": [64, 0], "phase": 0.0}
 
     assert picture((64, 8), waves=[wave]) == pytest.approx(0.5, abs=GEMM_ERROR)
+
+
+def solid(size, **fields):
+    return synthesize_volume(spec(**fields), size, {}, silent).voxels[..., 0]
+
+
+def test_all_energy_of_a_solid_lies_in_the_bins_of_the_shell():
+    cube = solid((48, 48, 48), frequency=4, bandwidth=2, count=20, seed=2, range="signed")
+
+    energy = abs(np.fft.fftn(cube.astype(np.float64))) ** 2
+    waves = np.fft.fftfreq(48, 1 / 48)
+    radius = np.sqrt(sum(axis**2 for axis in np.meshgrid(waves, waves, waves)))
+    # The rest is float32 rounding, 2^-24 squared against a variance of 1/40
+    assert 1 - energy[(radius >= 4) & (radius <= 6)].sum() / energy.sum() < 1e-11
+    assert np.count_nonzero(energy > 1e-6 * energy.max()) == 2 * 20
+
+
+@pytest.mark.parametrize(("size", "made"), [((9, 7), picture), ((9, 7, 5), solid)])
+def test_points_are_what_grids_show(size, made):
+    waves = [{"cycles": [2, -1, 3], "phase": 0.4}, {"cycles": [-5, 2], "phase": 2.0}]
+    centres = [(np.arange(count) + 0.5) / count for count in size]
+    centres[1] = centres[1][::-1]
+    places = np.stack(np.meshgrid(*centres[::-1], indexing="ij")[::-1], axis=-1)
+
+    found = mean_at(spec(waves=waves), places.reshape(-1, len(size)), [1 / n for n in size])
+
+    assert made(size, waves=waves).ravel() == pytest.approx(found, abs=GEMM_ERROR)
+
+
+def test_no_wave_of_space_comes_twice():
+    cycles, _ = waves_of(spec(frequency=1, bandwidth=0, count=4, seed=9), 3)
+
+    # Of the six whole points at distance 1 one of each opposite pair
+    assert len({tuple(cycle) for cycle in cycles.tolist()}) == 3
+    assert (abs(cycles).sum(axis=1) == 1).all()

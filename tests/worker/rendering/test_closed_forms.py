@@ -1,0 +1,187 @@
+"""Textures evaluated at the fragment against the same at points on the CPU: within 1e-5."""
+
+import numpy as np
+import pytest
+from pydantic import TypeAdapter
+
+from api_schemas.language import FAMILIES, Texture
+from worker import synthesis
+from worker.closed_form import ClosedForm
+from worker.rendering.chunks import SHADERS
+from worker.synthesis import checkerboard, gardner, perlin, ramp, worley
+from worker.synthesis._perlin_sums import KINDS
+
+TOLERANCE = 1e-5
+COUNT = 4096
+PIXEL = 1 / 512
+"""Sides of the box that is averaged: 1/512 of a tile, but 1/8 where a test says so."""
+STOPS = [
+    {"position": 0.2, "color": [1.0, 0.0, 0.25]},
+    {"position": 0.45, "color": [0.0, 2.0, 0.5]},
+    {"position": 0.6, "color": [0.1, 0.2, 0.3]},
+]
+
+
+def spec(body):
+    return TypeAdapter(Texture).validate_python(body)
+
+
+def places(axes):
+    """Points in and around the tile, as float32 holds them, with some on its edges."""
+    found = np.random.default_rng(5).uniform(-2, 3, (COUNT, 3)).astype(np.float32)
+    found[:8] = np.indices((2, 2, 2)).reshape(3, 8).T / 2
+    found[:, axes:] = 0
+    return found
+
+
+@pytest.fixture
+def draw():
+    """Evaluate a closed form: draw(form, places (n, 3), reach) -> (n, 4)."""
+    # Imported here: it needs OpenGL.
+    from tests.worker.rendering.formula_drawing import drawn  # noqa: PLC0415
+
+    return drawn
+
+
+def perlin_at(texture, where, reach):
+    return perlin.noise_at(texture, where, 1 / reach)[0]
+
+
+def gardner_at(texture, where, reach):
+    return gardner.mean_at(texture, where, [reach] * where.shape[1])
+
+
+def worley_at(texture, where, reach):
+    return worley.distances_at(texture, where)
+
+
+def checkerboard_at(texture, where, reach):
+    return checkerboard.color_at(texture, where, [reach] * where.shape[1])
+
+
+AT = {
+    "perlin": perlin_at,
+    "gardner": gardner_at,
+    "worley": worley_at,
+    "checkerboard": checkerboard_at,
+}
+BODIES = [
+    {"technique": "gardner", "frequency": 9, "bandwidth": 20, "count": 12, "seed": 2},
+    {"technique": "gardner", "waves": [{"cycles": [1000, -3, 40], "phase": 7.5}]},
+    {"technique": "checkerboard", "cells": [7, 64, 3]},
+    *[{"technique": "worley", "frequency": 5, "metric": m} for m in worley.METRICS],
+    *[{"technique": "worley", "frequency": 64, "output": o, "seed": 9} for o in worley.OUTPUTS],
+    {"technique": "worley", "frequency": 6, "points": "poisson", "output": "f2", "seed": 2**32 - 1},
+    {"technique": "worley", "frequency": 1, "points": "poisson", "seed": 3},
+    {"technique": "worley", "frequency": 1, "points": "poisson", "seed": 5},
+    {"technique": "worley", "frequency": 3, "jitter": 0.3},
+    {"technique": "perlin", "frequency": 8, "range": "signed"},
+    {"technique": "perlin", "frequency": 200, "gradients": "reference", "seed": 1},
+    {"technique": "perlin", "frequency": 5, "fade": "cubic", "octaves": 4, "depth": 0.3},
+    {"technique": "perlin", "frequency": 3, "fade": "linear", "octaves": 3, "time": 0.7},
+    {"technique": "perlin", "frequency": 2, "octaves": 16, "lacunarity": 8, "time": -3.1},
+    *[
+        {"technique": "perlin", "frequency": 6, "octaves": 8, "sum": kind, "range": shown}
+        for kind in KINDS
+        for shown in ("unit", "signed")
+    ],
+]
+
+
+def name_of(body):
+    return "-".join(str(value) for value in body.values() if not isinstance(value, list))
+
+
+@pytest.mark.gl
+@pytest.mark.parametrize("solid", [False, True], ids=["plane", "space"])
+@pytest.mark.parametrize("body", BODIES, ids=name_of)
+def test_a_fragment_shows_what_the_point_has(draw, body, solid):
+    texture, axes = spec(body), 3 if solid else 2
+    where = places(axes)
+
+    shown = draw(synthesis.closed_form(texture, solid=solid), where, PIXEL)
+
+    expected = AT[texture.technique](texture, where[:, :axes].astype(np.float64), PIXEL)
+    expected = expected[:, np.newaxis] if expected.ndim == 1 else expected
+    assert abs(shown[:, :3] - expected).max() <= TOLERANCE
+    assert (shown[:, 3] == 1).all()
+
+
+@pytest.mark.gl
+@pytest.mark.parametrize("name", ["checkerboard", "gardner", "perlin"])
+def test_what_a_large_pixel_cannot_show_is_averaged_or_fades(draw, name):
+    texture = spec({"technique": name})
+    where = places(2)
+
+    shown = draw(synthesis.closed_form(texture, solid=False), where, 1 / 10)
+
+    expected = AT[name](texture, where[:, :2].astype(np.float64), 1 / 10)
+    expected = expected[:, np.newaxis] if expected.ndim == 1 else expected
+    assert abs(shown[:, :3] - expected).max() <= TOLERANCE
+
+
+@pytest.mark.gl
+def test_a_pixel_without_extent_shows_the_point_itself(draw):
+    board = spec({"technique": "checkerboard"})
+    where = places(2)[8:]  # on an edge it is neither
+
+    shown = draw(synthesis.closed_form(board, solid=False), where, 0.0)
+
+    expected = checkerboard.color_at(board, where[:, :2].astype(np.float64), [0.0, 0.0])
+    assert abs(shown[:, :3] - expected).max() <= TOLERANCE
+
+
+@pytest.mark.gl
+@pytest.mark.parametrize("interpolation", ["linear", "smooth", "step"])
+def test_a_ramp_colours_what_is_in_it(draw, interpolation):
+    noise = {"technique": "perlin", "frequency": 4, "octaves": 3}
+    texture = spec(
+        {"technique": "ramp", "input": noise, "stops": STOPS, "interpolation": interpolation}
+    )
+    where = places(3)
+
+    form = synthesis.closed_form(texture, solid=True)
+    shown = draw(form, where, PIXEL)
+
+    # Read off the noise that the fragment shows itself: a flat band's edge is infinitely steep
+    value = draw(form.inputs["input"], where, PIXEL)[:, :1]
+    expected = ramp.colored(texture, value)
+    # 1e-7 of a value between stops .15 apart, whose colours are 2 apart
+    assert abs(shown[:, :3] - expected).max() <= TOLERANCE
+
+
+@pytest.mark.gl
+@pytest.mark.parametrize("value", [0.25, [0.5, 0.5], [1.0, 2.0, 3.0], [1.0, 0.5, 0.25, 0.5]])
+def test_a_constant_is_what_a_sampler_would_read(draw, value):
+    texture = spec({"technique": "constant", "value": value})
+
+    shown = draw(synthesis.closed_form(texture, solid=False), places(2), PIXEL)
+
+    grey = [[value] * 3, 1.0] if isinstance(value, float) else None
+    hues, alpha = (
+        grey
+        or {
+            2: ([value[0]] * 3, value[-1]),
+            3: (value, 1.0),
+            4: (value[:3], value[-1]),
+        }[len(value)]
+    )
+    assert (shown == np.array([*(hue * alpha for hue in hues), alpha], np.float32)).all()
+
+
+def test_every_chunk_has_a_technique_that_can_tell_its_formula():
+    chunks = {path.stem for path in (SHADERS / "textures").glob("*.glsl")}
+
+    assert chunks <= set(FAMILIES["textures"])
+    assert chunks == {
+        name for name in FAMILIES["textures"] if hasattr(synthesis._module(name), "closed_form")
+    }
+
+
+def test_what_has_no_formula_leaves_none_to_what_holds_it():
+    slope = {"technique": "perlin", "output": "slope"}
+    held = {"technique": "ramp", "input": slope, "stops": STOPS}
+
+    assert synthesis.closed_form(spec(slope), solid=False) is None
+    assert synthesis.closed_form(spec(held), solid=False) is None
+    assert isinstance(synthesis.closed_form(spec({"technique": "perlin"}), solid=False), ClosedForm)

@@ -1,0 +1,28 @@
+// Turns of a wave at a place: a whole number of swings per tile, in two halves as of a lattice.
+float turns(float place, float swings) {
+    float x = place - floor(place);
+    float coarse = floor(x * 4096.0);
+    return float(int(coarse) * int(swings) & 4095) / 4096.0 + (x - coarse / 4096.0) * swings;
+}
+
+// sin(pi x) / (pi x)
+float sinc(float x) {
+    float angle = 3.14159265 * x;
+    return abs(angle) < 1e-3 ? 1.0 - angle * angle / 6.0 : sin(angle) / angle;
+}
+
+// A sum of cosines (Gardner 1985), each averaged over the parallelogram of the pixel.
+// waves: swings per tile along u, v, w, and the phase in turns.
+vec4 texture_gardner(
+    vec3 place, vec3 across_x, vec3 across_y, vec4 waves[256], int count, float scale, float bias
+) {
+    float sum = 0.0;
+    for (int i = 0; i < count; i++) {
+        vec3 swings = waves[i].xyz;
+        float angle = turns(place.x, swings.x) + turns(place.y, swings.y)
+            + turns(place.z, swings.z) + waves[i].w;
+        float fade = sinc(dot(swings, across_x)) * sinc(dot(swings, across_y));
+        sum += fade * cos(6.28318531 * (angle - floor(angle)));
+    }
+    return vec4(vec3(scale * sum + bias), 1.0);
+}
