@@ -1,9 +1,4 @@
-#include "lib/picture.glsl"
-#include "lib/surface_point.glsl"
-in vec3 vertex_normal;
-in vec4 vertex_tangent;
-in vec4 vertex_color;
-uniform vec4 eye;  // (0, 0, 0, 1), or the direction towards an orthographic camera and 0
+#include "lib/point_seen.glsl"
 // Of (x, y, 1) in samples from an origin near the horizon; worker/rendering/infinite_planes.py says why these are linear.
 uniform vec2 pixel_origin;
 uniform mat3 plane_from_pixel;     // to u / w, v / w, 1 / w
@@ -26,18 +21,10 @@ float inverse_w() {
 // Where the ray of this pixel meets the plane; behind the eye if inverse_w() is below 0.
 SurfacePoint surface_point() {
     float inverse = inverse_w();
-    vec3 position = position_from_pixel * pixel() / inverse;
     vec2 uv = (plane_from_pixel * pixel()).xy / inverse;
-    vec3 outer = normalize(vertex_normal);
-    vec3 normal = gl_FrontFacing ? outer : -outer;
-    return SurfacePoint(
-        position,
+    return point_seen(
+        position_from_pixel * pixel() / inverse,
         object_from_pixel * pixel() / inverse,
-        normal,
-        normal,
-        normalize(eye.xyz - eye.w * position),
-        vertex_tangent,
-        vertex_color,
         vec2[4](uv, uv, uv, uv)
     );
 }
