@@ -28,6 +28,8 @@ Layer = Literal[
     "object_id",
     "material_id",
     "coverage",
+    "footprint",
+    "texel_density",
 ]
 
 LayerName = Annotated[str, Field(pattern="^[a-z][a-z0-9_]{0,31}$")]
@@ -83,7 +85,7 @@ class RenderOutput(Output):
     supersampling: Annotated[int, Field(ge=1, le=8), WHOLE] = Field(
         default=2, description="Samples per pixel along each side: more are smoother and slower."
     )
-    layers: Annotated[list[Layer], Field(max_length=10), UNIQUE_ITEMS] = Field(
+    layers: Annotated[list[Layer], Field(max_length=12), UNIQUE_ITEMS] = Field(
         default=[],
         json_schema_extra={"uniqueItems": True},
         description="What is told of each pixel besides its colour. An EXR holds all that are "
@@ -93,9 +95,15 @@ class RenderOutput(Output):
         "the color of an unlit, diffuse or base, premultiplied, like light the mean of all "
         "samples; object_id, from 1 in the order of drawing, depth first; material_id, from 1 in "
         "the same order, equal surfaces together; coverage, the share of the pixel that things "
-        "cover. All but albedo and coverage belong to the nearest sample, are never averaged and 0 "
-        "where nothing is; what is blended leaves them to what is behind it. A PNG shows one layer "
+        "cover; footprint, how far uv go from this pixel to the next one, X and Y to the right, Z "
+        "and W upwards: of waves, a pixel holds those of fewer than 1 / (2 footprint) cycles per "
+        "tile; texel_density, how many texels of the surface's main picture fit along a pixel, 0 "
+        "without one: below 1 the picture is magnified, from 2 on it is as sharp as can be. All "
+        "but albedo and coverage belong to the nearest sample, are never averaged and 0 where "
+        "nothing is; what is blended leaves them to what is behind it. A PNG shows one layer "
         "instead of the colour: albedo like a picture, directions as n / 2 + 1/2, depth as "
-        "1 / (1 + Z), uv as red and green, an id as its own code, position and coverage as they "
+        "1 / (1 + Z), uv as red and green, an id as its own code, footprint as "
+        "1 + log2(x) / 16 of its lengths to the right and upwards, texel_density as x / (1 + x), "
+        "position and coverage as they "
         "are, cut off outside of 0..1.",
     )

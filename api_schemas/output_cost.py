@@ -23,6 +23,8 @@ LAYER_CHANNELS: Mapping[Layer, int] = {
     "object_id": 1,
     "material_id": 1,
     "coverage": 1,
+    "footprint": 4,
+    "texel_density": 1,
 }
 
 _SECONDS_TO_START = 0.01
@@ -35,7 +37,7 @@ _SECONDS_PER_LAYERED_PIXEL = 2e-7
 _BYTES_PER_PIXEL = 48
 _BYTES_PER_LAYER_NUMBER = 12
 _BYTES_PER_SAMPLE = 52
-_BYTES_PER_LAYERED_SAMPLE = 240
+_BYTES_PER_LAYERED_SAMPLE = 272
 
 
 def writing(output: Output) -> Cost:

@@ -21,6 +21,8 @@ CHANNELS = {
     "object_id": ["object_id"],
     "material_id": ["material_id"],
     "coverage": ["coverage"],
+    "footprint": [f"footprint.{letter}" for letter in "XYZW"],
+    "texel_density": ["texel_density"],
 }
 
 

@@ -7,6 +7,8 @@ from worker.rendering.relief_fragment import aside, relief_chunks, tilts
 from worker.rendering.shading_layout import LookupLayout, Parameter, ShadingLayout
 
 VERSION = "#version 410 core"
+_MAIN = ("base_color", "diffuse_color", "color")
+"""Parameters whose map is the surface's picture, rather than any other one."""
 _BY_OPACITY = {
     "mask": "    if (opacity < alpha_cutoff) discard;",
     "blend": "    color *= opacity;",
@@ -69,7 +71,7 @@ def _fragment(layout: ShadingLayout, layered: bool, plane: bool) -> str:
         lines.append(f"    float opacity = bounded({_value(layout.opacity)}, point.color.a);")
         lines.append(_BY_OPACITY[layout.alpha_mode])
     if layered:
-        lines.append("    write_layers(point, albedo(surface), color.a);")
+        lines.append(f"    write_layers(point, albedo(surface), color.a, {_density(layout)});")
     if plane:
         lines.append("    if (!on_plane()) discard;")
     return "\n".join([*lines, "}"])
@@ -142,9 +144,13 @@ def _three_texels(lookup: LookupLayout, number: int, where: str) -> list[str]:
 
 
 def _reading(lookup: LookupLayout, number: int, where: str) -> str:
+    return f"sample_{lookup.filter}(picture_{lookup.picture}, {_looking(where, number)})"
+
+
+def _looking(where: str, number: int) -> str:
     return (
-        f"sample_{lookup.filter}(picture_{lookup.picture}, look_up({where}, "
-        f"lookup_transform[{number}], lookup_period[{number}], lookup_size[{number}]))"
+        f"look_up({where}, lookup_transform[{number}], lookup_period[{number}], "
+        f"lookup_size[{number}])"
     )
 
 
@@ -158,6 +164,17 @@ def _place(lookup: LookupLayout, number: int) -> str:
 
 def _moved_place(lookup: LookupLayout, number: int) -> str:
     return f"moved({_place(lookup, number)}, aside)"
+
+
+def _density(layout: ShadingLayout) -> str:
+    """Write how many texels of the main picture fit along a pixel; without one it is 0."""
+    mapped = {p.name: p.lookup for p in layout.parameters if p.lookup is not None}
+    main = next((name for name in _MAIN if name in mapped), None)
+    number = mapped[main] if main else next(iter(mapped.values()), None)
+    if number is None or layout.lookups[number].returns == "Triplanar":
+        return "0.0"
+    place = _place if layout.relief.parallax is None else _moved_place
+    return f"texel_density({_looking(place(layout.lookups[number], number), number)})"
 
 
 def _declarations(parameter: Parameter) -> list[str]:

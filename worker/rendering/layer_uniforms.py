@@ -15,8 +15,11 @@ class LayerUniforms:
         """Begin with nothing in OpenGL."""
         self._faces: dict[int, tuple[int, int]] = {}
 
-    def set(self, program: Program, world_from_camera: Matrix, mesh: VertexArray) -> None:
+    def set(
+        self, program: Program, world_from_camera: Matrix, mesh: VertexArray, supersampling: int
+    ) -> None:
         """Tell the bound program where the eye is and how the mesh's triangles lie."""
+        program.set("samples_per_side", supersampling)
         program.set("view_axis", -world_from_camera[:3, 2])
         program.set("has_faces", mesh.has_sides)
         program.set("face_normals", _UNIT)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from api_schemas.families import Meaning
 
 PICTURE = "picture"
-ATTACHMENTS = 7
+ATTACHMENTS = 8
 AVERAGED = 2
 """So many attachments, the first ones, hold the mean of a pixel's samples, the others the nearest
 sample that shows a thing."""
@@ -42,4 +42,6 @@ PLACES: Mapping[str, Place] = {
     "material_id": Place(4, 3, 4),
     "tangent": Place(5, 0, 3),
     "uv": Place(6, 0, 2),
+    "texel_density": Place(6, 2, 3),
+    "footprint": Place(7, 0, 4),
 }

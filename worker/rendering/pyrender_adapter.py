@@ -169,7 +169,12 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         if self._frame.target.layered:
             program.set("object_id", number + 1)
             program.set("material_id", primitive.material.number)
-            self._layers.set(program, scene.view.world_from_camera, primitive.mesh)
+            self._layers.set(
+                program,
+                scene.view.world_from_camera,
+                primitive.mesh,
+                self._frame.supersampling,
+            )
         if primitive.material.shading.layout.alpha_mode == "blend" and not self._frame.blending:
             self._begin_blending()
         start = time.perf_counter()
