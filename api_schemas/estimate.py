@@ -17,10 +17,12 @@ from api_schemas.bodies import (
     body,
 )
 from api_schemas.camera import Camera, FramedCamera, ModelCamera, PosedCamera
+from api_schemas.cookies import Cookie
 from api_schemas.cost import Cost
 from api_schemas.coverage import coverage, stand_in
 from api_schemas.families import SurfaceSpec, TextureSpec
 from api_schemas.geometry import IDENTITY, Affine, Vector3, affine
+from api_schemas.light_cost import cookies_of, seconds_of_shadows, shadow_maps
 from api_schemas.lights import LIGHTS_MAX
 from api_schemas.maps import TABLE_FILTERS
 from api_schemas.output_cost import samples_of, sampling, tiles_of, writing
@@ -28,7 +30,7 @@ from api_schemas.relief import AnyMap
 from api_schemas.requests import RenderRequest, Request
 from api_schemas.scene import Node
 from api_schemas.textures.image import ImageSpec
-from api_schemas.walk import parts
+from api_schemas.walk import outermost, parts
 
 SECONDS_PER_SHADED_SAMPLE = 6e-8
 SECONDS_PER_LIGHT_SAMPLE = 1e-8
@@ -67,11 +69,13 @@ def estimate(request: Request, facts: Mapping[str, AssetFacts]) -> Cost:
 
 def _textures(value: object, facts: Mapping[str, AssetFacts], pixels: int) -> Cost:
     cost = Cost()
-    for _, part in parts(value):
-        if isinstance(part, ImageSpec) and (texels := _texels(part, facts)):
+    for texture in outermost(value, TextureSpec):
+        if isinstance(texture, ImageSpec) and (texels := _texels(texture, facts)):
             cost += Cost(texels * SECONDS_PER_TEXEL, texels * BYTES_PER_TEXEL)
-        if isinstance(part, TextureSpec):
-            cost += part.cost(pixels)
+        cost += texture.cost(pixels)
+        within = math.prod(texture.inner_size((pixels, 1)))
+        for name in type(texture).model_fields:
+            cost += _textures(getattr(texture, name), facts, within)
     return cost
 
 
@@ -103,14 +107,21 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
         else len(scene.lights)
     )
     lighting = SECONDS_PER_SHADED_SAMPLE + shining * SECONDS_PER_LIGHT_SAMPLE
+    lighting += seconds_of_shadows(scene.lights or [])
+    cookies = cookies_of(scene.lights or [])
+    # Both sides of a branch are run: every light asks every picture.
+    pictures = {cookie.unit: SECONDS_PER_MAP_SAMPLE[cookie.filter] for cookie in cookies}
+    lighting += shining * sum(pictures.values())
     textures = _WornTextures(facts)
     background = _maps(scene.background)
-    cost += textures.cost(background)
+    cost += textures.cost(background) + textures.cost(cookies)
     cost += Cost(samples * _seconds_per_sample(background))
     made = set()
+    once = 0.0
     for node, placed, found in drawn:
         drawing = found.draws * SECONDS_PER_DRAW + found.pieces * SECONDS_PER_DRAWN_TRIANGLE
         cost += Cost(tiles * drawing)
+        once += drawing
         if found.key not in made:
             made.add(found.key)
             cost += found.making
@@ -129,6 +140,7 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
             covered *= 2  # what is behind its front is shaded too
             cost += Cost(found.pieces * SECONDS_PER_SORTED_TRIANGLE)
         cost += Cost(samples * covered * shading)
+    cost += shadow_maps(scene.lights or [], once)
     # Equal things are made once, one after another, and kept: only the largest counts twice.
     return cost + Cost(bytes=textures.making)
 
@@ -169,7 +181,7 @@ class _WornTextures:
         self.making = 0.0
         """Bytes that the largest of them takes while it is made."""
 
-    def cost(self, maps: Sequence[MAPS]) -> Cost:
+    def cost(self, maps: Sequence[MAPS | Cookie]) -> Cost:
         """Return the cost of what these maps need and no earlier ones did."""
         cost = Cost()
         for item in maps:
@@ -179,7 +191,7 @@ class _WornTextures:
                 picture_cost = _textures(item.texture, self._facts, item.texture.surface_side**2)
                 self.making = max(self.making, picture_cost.bytes)
                 cost += Cost(picture_cost.seconds)
-            form = item.filter if item.filter in TABLE_FILTERS else item.pyramid
+            form = item.filter if item.filter in TABLE_FILTERS else getattr(item, "pyramid", "box")
             if (
                 stored := f"{picture} {form} {item.wrap if form != 'box' else ''}"
             ) not in self._made:

@@ -5,6 +5,8 @@ A technique's name is written once: its module's name, its `technique` literal, 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, ClassVar, Literal, Self
 
 from pydantic import Field
@@ -20,6 +22,15 @@ if TYPE_CHECKING:
 Meaning = Literal["colour", "data"]
 Wrap = Literal["repeat", "mirror", "clamp", "border"]
 AlphaMode = Literal["opaque", "mask", "blend"]
+
+
+@dataclass(frozen=True, slots=True)
+class Refusal:
+    """Why a valid spec cannot be done: a problem's code, the field at fault, and the reason."""
+
+    code: str
+    field: str
+    message: str
 
 
 class TechniqueSpec(Schema):
@@ -53,6 +64,14 @@ class TextureSpec(TechniqueSpec):
     surface_side: ClassVar[int] = 1024
     """Pixels along each side of its picture, where a surface wears it."""
 
+    def inner_size(self, size: tuple[int, int]) -> tuple[int, int]:
+        """Return the size that textures within are made at, where this one is made at `size`."""
+        return size
+
+    def refusals(self) -> Iterator[Refusal]:
+        """Tell what its numbers make impossible, beyond what its schema refuses."""
+        yield from ()
+
     def cost(self, pixels: int) -> Cost:
         """Estimate this technique at a number of pixels, without the textures nested in it."""
         return Cost(seconds=pixels * 2e-8, bytes=pixels * 32)
@@ -74,6 +93,15 @@ class LayoutSpec(TechniqueSpec):
 
     joins: ClassVar[tuple[Wrap, Wrap]] = ("clamp", "clamp")
     """What lies beyond the picture along u and v."""
+
+    @property
+    def proportion(self) -> tuple[int, int]:
+        """Width to height of the picture."""
+        return (1, 1)
+
+    def mistake(self) -> tuple[str, str] | None:
+        """Return which field is impossible and why, if JSON Schema could not say it."""
+        return None
 
 
 class SurfaceSpec(TechniqueSpec):

@@ -1,11 +1,13 @@
 """Requests that are well-formed and still cannot be drawn: told before any work starts."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from api_schemas.camera import Camera, FramedCamera, ModelCamera
+from api_schemas.cookies import COOKIES_MAX
 from api_schemas.families import SurfaceSpec, TextureSpec
 from api_schemas.geometry import IDENTITY, Affine, Vector3, affine, cross, length, triple
+from api_schemas.light_cost import cookies_of
 from api_schemas.lights import DirectionalLight, Light, SpotLight
 from api_schemas.maps import MAPS_MAX, Map
 from api_schemas.model_mesh import ModelMesh
@@ -37,9 +39,11 @@ def obstacles(request: Request) -> list[Obstacle]:
     found = list(_limits(request))
     if found:
         return found
+    found += _refusals(request)
     if isinstance(request, TextureRequest):
-        return [*_layer_names(request), *_layers(request.output)]
+        return [*found, *_layer_names(request), *_layers(request.output)]
     found += _camera(request.scene.camera)
+    found += _cookies(request.scene.lights or [])
     for index, light in enumerate(request.scene.lights or []):
         found += _light(light, f"/scene/lights/{index}")
     for index, node in enumerate(request.scene.nodes):
@@ -89,6 +93,14 @@ def _limits(request: Request) -> Iterator[Obstacle]:
     ):
         if count > limit:
             yield Obstacle("too_many_nodes", "", f"{count} {things}; at most {limit}")
+
+
+def _refusals(request: Request) -> Iterator[Obstacle]:
+    for pointer, part in parts(request):
+        if isinstance(part, TextureSpec):
+            for refusal in part.refusals():
+                place = f"{pointer}/{refusal.field}" if refusal.field else pointer
+                yield Obstacle(refusal.code, place, refusal.message)
 
 
 def _layer_names(request: TextureRequest) -> Iterator[Obstacle]:
@@ -150,6 +162,16 @@ def _upright(view: Vector3, up: Vector3, pointer: str) -> Iterator[Obstacle]:
         yield Obstacle(code, pointer, "up has no direction")
     elif length(cross(view, up)) <= SMALLEST_SINE * length(view) * length(up):
         yield Obstacle(code, pointer, "the camera looks along its up vector")
+
+
+def _cookies(lights: Sequence[Light]) -> Iterator[Obstacle]:
+    pictures = {cookie.unit for cookie in cookies_of(lights)}
+    if len(pictures) > COOKIES_MAX:
+        yield Obstacle(
+            "too_many_maps",
+            "/scene/lights",
+            f"{len(pictures)} pictures before lights; at most {COOKIES_MAX}",
+        )
 
 
 def _light(light: Light, pointer: str) -> Iterator[Obstacle]:

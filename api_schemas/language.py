@@ -17,6 +17,7 @@ from typing_extensions import TypeAliasType
 
 from api_schemas import coordinates, layouts, surfaces, textures
 from api_schemas.base import Color, NonNegative, Number, Schema
+from api_schemas.dishes import DishSpec, ReactionSpec
 from api_schemas.families import (
     CoordinatesSpec,
     LayoutSpec,
@@ -25,6 +26,7 @@ from api_schemas.families import (
     TextureSpec,
 )
 from api_schemas.maps import ColorMap, Map, NormalMap, NumberMap, ScaledMap
+from api_schemas.parameters import ParameterMap
 from api_schemas.relief import (
     BumpMap,
     Displacement,
@@ -139,7 +141,8 @@ def _complete() -> None:
     names["TangentFrames"] = TangentFrames
     members = [spec for family in FAMILIES.values() for spec in family.values()]
     models: list[type[Schema]] = [Map, ScaledMap, ColorMap, NumberMap, NormalMap]
-    models += [ReliefMap, BumpMap, HeightMap, ParallaxMap, Displacement, SurfaceSpec, *members]
+    models += [ReliefMap, BumpMap, HeightMap, ParallaxMap, Displacement, SurfaceSpec]
+    models += [ParameterMap, *ParameterMap.__subclasses__(), DishSpec, ReactionSpec, *members]
     for model in models:
         module = importlib.import_module(model.__module__)
         model.model_rebuild(force=True, _types_namespace={**vars(module), **names})

@@ -5,6 +5,8 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from api_schemas.base import Color, NonNegative, Schema, Vector
+from api_schemas.cookies import Gobo, Slide
+from api_schemas.shadows import Shadow
 
 LIGHTS_MAX = 32
 """Lights of one scene."""
@@ -21,7 +23,15 @@ class AmbientLight(Schema):
     )
 
 
-class DirectionalLight(Schema):
+class _CastingLight(Schema):
+    """A light from somewhere, so that there is a side it does not reach."""
+
+    shadow: Shadow | None = Field(
+        default=None, description="How it is kept from what lies behind things; not at all without."
+    )
+
+
+class DirectionalLight(_CastingLight):
     """Parallel light, as from the sun."""
 
     type: Literal["directional"]
@@ -30,9 +40,10 @@ class DirectionalLight(Schema):
     irradiance: NonNegative = Field(
         default=1.0, description="Brightness on a surface that faces the light."
     )
+    cookie: Gobo | None = Field(default=None, description="A picture that it goes through.")
 
 
-class PointLight(Schema):
+class PointLight(_CastingLight):
     """Light from one point, falling with the square of the distance."""
 
     type: Literal["point"]
@@ -41,7 +52,7 @@ class PointLight(Schema):
     intensity: NonNegative = Field(default=1.0, description="Brightness in W/sr.")
 
 
-class SpotLight(Schema):
+class SpotLight(_CastingLight):
     """A point light that shines into a cone with a soft edge."""
 
     type: Literal["spot"]
@@ -56,6 +67,7 @@ class SpotLight(Schema):
         default=0.6,
         description="Half angle in radians where it has faded to nothing; not below inner_angle.",
     )
+    cookie: Slide | None = Field(default=None, description="A picture that it throws.")
 
 
 Light = Annotated[

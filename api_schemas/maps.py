@@ -112,8 +112,10 @@ class NumberMap(ScaledMap):
     """A texture in the place of a number: one channel of it, never gamma-decoded."""
 
     texture: Annotated[Texture, DATA] = Field(description="The picture, of any technique.")
-    channel: Literal["r", "g", "b", "a"] = Field(
-        default="r", description="Which channel of the texture is read."
+    channel: Literal["r", "g", "b", "a", "packed"] = Field(
+        default="r",
+        description="Which channel of the texture is read; packed takes all four as the bytes of "
+        "one number, as `pack_float` writes them, before anything is blended.",
     )
 
 

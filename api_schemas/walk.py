@@ -28,6 +28,18 @@ def parts(value: object, pointer: str = "") -> Iterator[tuple[str, Schema]]:
                 yield from parts(item, f"{pointer}/{index}")
 
 
+def outermost(value: object, kind: type[Model]) -> Iterator[Model]:
+    """Yield the schemas of a kind within a value that lie in no other one of it."""
+    if isinstance(value, kind):
+        yield value
+    elif isinstance(value, Schema):
+        for name in type(value).model_fields:
+            yield from outermost(getattr(value, name), kind)
+    elif isinstance(value, list):
+        for item in value:
+            yield from outermost(item, kind)
+
+
 def escaped(key: str) -> str:
     """Write a key as a part of a JSON pointer (RFC 6901)."""
     return key.replace("~", "~0").replace("/", "~1")

@@ -25,3 +25,8 @@ class LatlongSpec(LayoutSpec):
         description="Which direction is in the middle of the picture: +z of OpenEXR and Mitsuba, "
         "+x of three.js and Blender, -z of MaterialX, -x of the textbook.",
     )
+
+    @property
+    def proportion(self) -> tuple[int, int]:
+        """Twice as wide as high."""
+        return (2, 1)

@@ -185,3 +185,19 @@ def test_a_layer_that_a_texture_does_not_tell_is_named():
     body = {"texture": {"technique": "perlin"}, "output": {"layers": ["field"]}}
 
     assert found(TextureRequest.model_validate(body)) == [("layer_unknown", "/output/layers/0")]
+
+
+def test_lights_share_four_pictures():
+    def spot(number):
+        picture = {"technique": "perlin", "seed": number}
+        return {
+            "type": "spot",
+            "position": [0, 0, 5],
+            "direction": [0, 0, -1],
+            "cookie": {"texture": picture},
+        }
+
+    assert found(scene(lights=[spot(number % 4) for number in range(12)])) == []
+    assert found(scene(lights=[spot(number) for number in range(5)])) == [
+        ("too_many_maps", "/scene/lights")
+    ]

@@ -1,11 +1,13 @@
 """Every technique has a golden picture: an example that shows it, small, as the executor makes it.
 
-A texture's is its own example; a surface's or a kind of coordinates' is the first scene, in
-alphabetical order, that uses it. So a new technique has its golden test before anyone writes one.
+A texture's is its own example; that of another technique is the scene of its name, else the one
+that shows the fewest techniques besides it. So a new technique has its golden test before anyone
+writes one.
 """
 
 import pytest
 
+from api_schemas.families import TechniqueSpec
 from api_schemas.language import FAMILIES
 from api_schemas.requests import REQUESTS
 from api_schemas.walk import parts
@@ -18,12 +20,19 @@ def example_of(family, technique):
     if family == "textures":
         return technique
     spec = FAMILIES[family][technique]
-    return next(
-        name
-        for name, (kind, body) in sorted(examples().items())
-        if kind == "render"
-        and any(isinstance(part, spec) for _, part in parts(REQUESTS[kind].model_validate(body)))
-    )
+    shown = {name: set(_specs_of(*example)) for name, example in examples().items()}
+    scenes = [name for name, specs in shown.items() if spec in specs and name in _scenes()]
+    return min(scenes, key=lambda name: (name != technique, len(shown[name]), name))
+
+
+def _scenes():
+    return {name for name, (kind, _) in examples().items() if kind == "render"}
+
+
+def _specs_of(kind, body):
+    for _, part in parts(REQUESTS[kind].model_validate(body)):
+        if isinstance(part, TechniqueSpec):
+            yield type(part)
 
 
 @pytest.mark.golden

@@ -9,6 +9,7 @@ from api_schemas.base import FLOAT32_MAX
 from api_schemas.families import Wrap
 from api_schemas.relief import BumpEncoding
 from worker.images.image import Image
+from worker.images.packed_floats import unpacked
 
 _BYTE_MAX = 255
 
@@ -28,17 +29,24 @@ class Slopes:
     wrap: tuple[Wrap, Wrap]
 
 
-Preparation = Decoded | Slopes
+@dataclass(frozen=True, slots=True)
+class Unpacked:
+    """Asks for the numbers that four bytes hold."""
+
+
+Preparation = Decoded | Slopes | Unpacked
 
 
 def prepared(image: Image, preparation: Preparation | None) -> Image:
     """Return what a preparation asks for, or the picture itself.
 
     Decoded: two channels, tilts along u and v. Slopes: three channels: the height, and its change
-    per tile along u and along v. What is no number is 0.
+    per tile along u and along v. Unpacked: one channel. What is no number is 0.
     """
     if preparation is None:
         return image
+    if isinstance(preparation, Unpacked):
+        return Image(unpacked(image.pixels)[..., np.newaxis], "data")
     finite = np.nan_to_num(image.pixels, posinf=FLOAT32_MAX, neginf=-FLOAT32_MAX)
     if isinstance(preparation, Decoded):
         pair = finite[..., [0, min(1, image.channels - 1)]]

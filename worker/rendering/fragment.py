@@ -1,14 +1,22 @@
 """The fragment shader of a surface: its chunk, and generated code that fills its parameters."""
 
+import functools
 from collections.abc import Callable, Iterable, Sequence
 
 from worker.rendering.chunks import Source, chunk, join
+from worker.rendering.light_code import light_chunks, light_lines
 from worker.rendering.relief_fragment import aside, relief_chunks, tilts
-from worker.rendering.shading_layout import LookupLayout, Parameter, ShadingLayout
+from worker.rendering.shading_layout import (
+    LightLayout,
+    LookupLayout,
+    Parameter,
+    ShadingLayout,
+)
 
 VERSION = "#version 410 core"
 _MAIN = ("base_color", "diffuse_color", "color")
 """Parameters whose map is the surface's picture, rather than any other one."""
+_LIGHTS = "lib/lights.glsl"
 _BY_OPACITY = {
     "mask": "    if (opacity < alpha_cutoff) discard;",
     "blend": "    color *= opacity;",
@@ -16,17 +24,47 @@ _BY_OPACITY = {
 
 
 def surface_sources(
-    layout: ShadingLayout, *, layered: bool, plane: bool = False
+    layout: ShadingLayout, lights: LightLayout, *, layered: bool, plane: bool = False
 ) -> tuple[Source, Source]:
     """Return the vertex and the fragment source that draw a layout.
 
     Args:
         layout: The surface's.
+        lights: What of the scene's lights the program is made for.
         layered: Whether all layers are drawn.
         plane: Whether the mesh is a plane without end.
     """
-    fragment = _fragment(layout, layered, plane)
+    fragment = _fragment(layout, lights, layered, plane)
     return join(chunk("mesh.vert"), "mesh.vert"), join(fragment, layout.technique)
+
+
+@functools.cache
+def is_lit(technique: str) -> bool:
+    """Tell whether a surface asks for the lights: others need no program for their shadows."""
+    name = f"surfaces/{technique}.glsl"
+    return _LIGHTS in join(chunk(name), name).chunks
+
+
+def hole_sources(layout: ShadingLayout) -> tuple[Source, Source]:
+    """Return the sources that draw the depth alone, with holes where little or nothing is."""
+    opacity = layout.opacity
+    assert opacity is not None
+    numbers = [] if opacity.lookup is None else [opacity.lookup]
+    calls = [(call, number) for number in numbers for call in layout.lookups[number].calls]
+    chunks = ["lib/fragment.glsl", "lib/opacity.glsl", *(call.chunk for call, _ in calls)]
+    cutoff = "alpha_cutoff" if layout.alpha_mode == "mask" else "0.5"
+    lines = _head(layout, chunks)
+    for call, number in calls:
+        lines += call.declarations(number)
+    lines += [
+        *_declarations(opacity),
+        "void main() {",
+        "    SurfacePoint point = surface_point();",
+        *_texels(layout, numbers, _place),
+        f"    if (bounded({_value(opacity)}, point.color.a) < {cutoff}) discard;",
+        "}",
+    ]
+    return join(chunk("mesh.vert"), "mesh.vert"), join("\n".join(lines), "hole")
 
 
 def background_sources(layout: ShadingLayout) -> tuple[Source, Source]:
@@ -48,7 +86,7 @@ def background_sources(layout: ShadingLayout) -> tuple[Source, Source]:
     return vertex, join("\n".join(lines), "background")
 
 
-def _fragment(layout: ShadingLayout, layered: bool, plane: bool) -> str:
+def _fragment(layout: ShadingLayout, lights: LightLayout, layered: bool, plane: bool) -> str:
     parameters = [*layout.parameters, *([layout.opacity] if layout.opacity else [])]
     chunks = [f"lib/{'infinite_plane' if plane else 'fragment'}.glsl"]
     chunks += [f"surfaces/{layout.technique}.glsl"]
@@ -57,7 +95,11 @@ def _fragment(layout: ShadingLayout, layered: bool, plane: bool) -> str:
     chunks += relief_chunks(layout.relief)
     chunks += ["lib/opacity.glsl"] if layout.opacity else []
     chunks += ["lib/layers.glsl"] if layered else []
+    if is_lit(layout.technique):
+        chunks += light_chunks(lights)
     lines = _head(layout, chunks)
+    if is_lit(layout.technique):
+        lines += light_lines(lights)
     for call, number in calls:
         lines += call.declarations(number)
     for parameter in parameters:

@@ -7,9 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from worker.rendering.gl_context import GL
-from worker.rendering.lookups import Picture
+from worker.rendering.infinite_planes import plane_uniforms, whole_target
+from worker.rendering.lighting import Lighting
 from worker.rendering.programs import Program
-from worker.rendering.pyrender_scene import FlatScene
+from worker.rendering.pyrender_scene import FlatScene, SurfacePrimitive
 from worker.rendering.targets import Target
 
 _SET_BY_PYRENDER = frozenset({"V", "P", "cam_pos"})
@@ -40,27 +41,37 @@ class Frame:
     Attributes:
         number: Which frame of this renderer it is, from 1.
         scene: What is drawn.
-        lights: Uniforms.
+        lights: What shines on it.
         target: Where the samples go.
         clip_from_object: (n, 4, 4), by the number of the drawable.
-        eye: As lib/fragment.glsl wants it.
         size: Of the tile in samples.
         corner: Of the tile in the picture, in samples from the lower left.
         picture: Width and height of the whole picture in pixels.
         supersampling: Samples along each side of a pixel.
         blending: Whether what is drawn now lets light through.
-        bound: What each texture unit holds.
     """
 
     number: int
     scene: FlatScene
-    lights: dict[str, Any]
+    lights: Lighting
     target: Target
     clip_from_object: NDArray[np.float64]
-    eye: NDArray[np.float64]
     size: NDArray[np.int64]
     corner: NDArray[np.float64]
     picture: NDArray[np.float64]
     supersampling: int
     blending: bool
-    bound: dict[int, Picture]
+
+    def place(self, program: Program, primitive: SurfacePrimitive) -> None:
+        """Tell the bound program where a primitive lies in the tile and stands to the eye."""
+        clip_from_object = self.clip_from_object[primitive.number]
+        tile = primitive.mesh.tile
+        if tile is not None and primitive.hidden:
+            eye_from_object = self.scene.world_from_object[primitive.number].copy()
+            eye_from_object[:3, 3] -= self.scene.view.world_from_camera[:3, 3]
+            places = plane_uniforms(tile, clip_from_object, eye_from_object, self.size)
+            for name, value in places.items():
+                program.set(name, value)
+            clip_from_object = whole_target(tile)
+        program.set("clip_from_object", clip_from_object)
+        self.scene.place(program, primitive)

@@ -1,7 +1,8 @@
 """A request's lights as the uniforms that lib/lights.glsl reads."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -10,23 +11,60 @@ from numpy.typing import NDArray
 from api_schemas.base import FLOAT32_MAX
 from api_schemas.lights import AmbientLight, DirectionalLight, Light, PointLight, SpotLight
 from worker.errors import RenderError
+from worker.rendering.cookies import Cookies
+from worker.rendering.light_views import Lamp, LightView, light_views
+from worker.rendering.shading_layout import LightLayout
 
 _SHARPEST_EDGE = 1e-6  # of a cone, in cosines; equal angles would divide by zero
 
 
-def light_uniforms(lights: Sequence[Light], eye: NDArray[np.float64]) -> dict[str, Any]:
+@dataclass(frozen=True, slots=True)
+class Lighting:
+    """What shines on a scene.
+
+    Attributes:
+        uniforms: Of lit programs.
+        views: The shadow maps that are drawn first.
+        cookies: Pictures before lights.
+    """
+
+    uniforms: Mapping[str, Any]
+    views: tuple[LightView, ...]
+    cookies: Cookies
+
+    @property
+    def layout(self) -> LightLayout:
+        """What lit programs must know to be compiled."""
+        return LightLayout(shadows=bool(self.views), cookies=self.cookies.layouts)
+
+
+def lighting(
+    lights: Sequence[Light],
+    eye: NDArray[np.float64],
+    cookies: Cookies,
+    corners: Callable[[], NDArray[np.float64]],
+) -> Lighting:
     """Give the lights seen from the eye, in the request's order; ambient lights add up.
+
+    Args:
+        lights: The request's, or a model's, in the world.
+        eye: Where it is in the world.
+        cookies: The pictures before these lights.
+        corners: Gives (n, 3), those of boxes that hold all that is drawn, in the world; asked for
+            only where there are shadows.
 
     Raises:
         RenderError: A light has no direction (`light_degenerate`).
     """
     ambient = np.zeros(3)
     rows = []
+    lamps: list[Lamp] = []
     for index, light in enumerate(lights):
         if isinstance(light, AmbientLight):
             ambient += light.radiance
         else:
             rows.append(_row(light, index, eye))
+            lamps.append(light)
     # A product may leave float32, and infinite light on a black surface is no number.
     ambient = np.minimum(ambient, FLOAT32_MAX)
     uniforms: dict[str, Any] = {"ambient_radiance": ambient, "light_count": len(rows)}
@@ -34,7 +72,31 @@ def light_uniforms(lights: Sequence[Light], eye: NDArray[np.float64]) -> dict[st
         table = np.clip(rows, -FLOAT32_MAX, FLOAT32_MAX).reshape(-1, 3, 4)
         names = ("light_position", "light_color", "light_axis")
         uniforms |= {name: table[:, column] for column, name in enumerate(names)}
-    return uniforms
+    shaded = any(lamp.shadow is not None for lamp in lamps)
+    views = light_views(lamps, corners()) if shaded else []
+    if views:
+        uniforms |= _shadow_uniforms(views, len(rows), eye)
+    uniforms |= cookies.uniforms(eye)
+    return Lighting(uniforms, tuple(views), cookies)
+
+
+def _shadow_uniforms(
+    views: Sequence[LightView], count: int, eye: NDArray[np.float64]
+) -> dict[str, Any]:
+    """Lay out the shadow maps as lib/shadows.glsl wants them; layer -1 is no map."""
+    table = np.zeros((count, 5, 4))
+    table[:, 4, 0] = -1
+    layer = 0
+    for view in views:
+        row = table[view.light]
+        row[:3, :3] = view.axes
+        row[:3, 3] = view.axes @ (eye - view.origin)
+        reach = view.reach if view.parallel else view.near
+        row[3] = view.focal, reach, view.parallel, view.all_round
+        row[4] = layer, view.resolution, view.radius, view.bias
+        layer += view.faces
+    names = ("shadow_across", "shadow_up", "shadow_along", "shadow_lens", "shadow_map")
+    return {name: table[:, column] for column, name in enumerate(names)}
 
 
 def _row(

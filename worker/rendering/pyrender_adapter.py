@@ -16,16 +16,18 @@ from pyrender.constants import RenderFlags
 
 from worker.geometry.transforms import Matrix, rigid_inverse
 from worker.rendering.chunks import Source
-from worker.rendering.fragment import background_sources, surface_sources
+from worker.rendering.fragment import background_sources, is_lit, surface_sources
 from worker.rendering.frame import Frame, TraversedProgram
 from worker.rendering.gl_context import GL, GLContext, check, floats
-from worker.rendering.infinite_planes import plane_uniforms, whole_target
 from worker.rendering.layer_uniforms import LayerUniforms
+from worker.rendering.lighting import Lighting
 from worker.rendering.programs import Program, ProgramCache
 from worker.rendering.pyrender_scene import FlatScene, PlacedNode, SurfacePrimitive
-from worker.rendering.samplers import SamplerCache
 from worker.rendering.shading import Shading
+from worker.rendering.shading_layout import LightLayout
+from worker.rendering.shadow_maps import ShadowMaps
 from worker.rendering.targets import Target
+from worker.rendering.texture_units import COOKIE_UNIT, SHADOW_UNIT, TextureUnits
 
 
 class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
@@ -40,7 +42,8 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         super().__init__(1, 1)
         self._context = context
         self._programs = ProgramCache(TraversedProgram)
-        self._samplers = SamplerCache()
+        self._units = TextureUnits()
+        self._shadows = ShadowMaps(self._units)
         self._layers = LayerUniforms()
         self._frame: Frame | None = None
         self._frames = 0
@@ -51,7 +54,7 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
     def draw(
         self,
         scene: FlatScene,
-        lights: dict[str, Any],
+        lights: Lighting,
         target: Target,
         tile_from_picture: Matrix,
         size: tuple[int, int],
@@ -61,7 +64,7 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
 
         Args:
             scene: What to draw.
-            lights: From light_uniforms.
+            lights: What shines on it; draw_shadows must have seen it if any casts shadows.
             target: Where the samples go.
             tile_from_picture: Stretches the tile's part of clip space over all of it.
             size: The tile's width and height in samples.
@@ -74,7 +77,6 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         view = scene.view
         camera_from_world = rigid_inverse(view.world_from_camera)
         clip_from_world = tile_from_picture @ view.clip_from_camera @ camera_from_world
-        backward = view.world_from_camera[:3, 2]
         picture = np.diag(tile_from_picture)[:2] * size
         self._frames += 1
         self._frame = Frame(
@@ -83,20 +85,33 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
             lights=lights,
             target=target,
             clip_from_object=clip_from_world @ scene.world_from_object,
-            eye=np.append(backward, 0.0) if view.orthographic else np.array([0.0, 0.0, 0.0, 1.0]),
             size=np.array(size),
             corner=np.rint((picture - (1 + tile_from_picture[:2, 3]) * size) / 2),
             picture=np.rint(picture / supersampling),
             supersampling=supersampling,
             blending=False,
-            bound={},
         )
+        self._units.forget()
+        if lights.views:
+            self._shadows.bind()
+        for unit, cookie in enumerate(lights.cookies.pictures, COOKIE_UNIT):
+            self._units.put(unit, cookie)
         self.viewport_width, self.viewport_height = size
         GL.glLineWidth(supersampling)
         GL.glPointSize(supersampling)
         self.render(scene, RenderFlags.OFFSCREEN)
         self._frame = None  # a scene is held no longer than it is drawn
         check("drawing a tile")
+
+    def draw_shadows(self, scene: FlatScene, lights: Lighting) -> None:
+        """Draw what the lights of a scene see, if any casts shadows; its tiles come after.
+
+        Raises:
+            RenderError: OpenGL complains, or this is not the context's thread.
+        """
+        self._context.check_thread()
+        if lights.views:
+            self._shadows.draw_views(scene, lights.views)
 
     # Hooks of pyrender.Renderer, in the order in which its traversal calls them.
 
@@ -135,9 +150,11 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
     ) -> Program:
         assert self._frame is not None
         layout, layered = primitive.material.shading.layout, self._frame.target.layered
+        lights = self._frame.lights.layout if is_lit(layout.technique) else LightLayout()
         plane = primitive.mesh.tile is not None
         return self._linked(
-            (layout, layered, plane), lambda: surface_sources(layout, layered=layered, plane=plane)
+            (layout, lights, layered, plane),
+            lambda: surface_sources(layout, lights, layered=layered, plane=plane),
         )
 
     def _bind_lighting(
@@ -147,25 +164,21 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         if program.frame == self._frame.number:
             return
         program.frame = self._frame.number
-        program.set("eye", self._frame.eye)
-        if "eye_position" in program.uniforms:
-            world_from_camera = scene.view.world_from_camera
-            program.set("eye_position", world_from_camera[:3, 3])
-            program.set("camera_from_world", world_from_camera[:3, :3].T)
         if "light_count" in program.uniforms:
-            for name, value in self._frame.lights.items():
+            for name, value in self._frame.lights.uniforms.items():
                 program.set(name, value)
+            if self._frame.lights.views:
+                program.set("shadow_maps", SHADOW_UNIT)
+            for unit, name in enumerate(self._frame.lights.layout.samplers, COOKIE_UNIT):
+                program.set(name, unit)
 
     def _bind_and_draw_primitive(
         self, primitive: SurfacePrimitive, pose: Matrix, program: Program, flags: int
     ) -> None:
         assert self._frame is not None
         scene, number = self._frame.scene, primitive.number
-        program.set("clip_from_object", self._clip_from_mesh(program, primitive))
-        program.set("eye_from_object", scene.eye_from_object[number])
-        program.set("normal_from_object", scene.normal_from_object[number])
-        program.set("handedness", -1.0 if primitive.mirrored else 1.0)
-        self._bind_surface(program, primitive.material.shading)
+        self._frame.place(program, primitive)
+        self._units.bind(program, primitive.material.shading)
         if self._frame.target.layered:
             program.set("object_id", number + 1)
             program.set("material_id", primitive.material.number)
@@ -198,20 +211,6 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
     def _read_main_framebuffer(self, scene: Any, flags: int) -> None:
         """Read nothing: the tile is resolved first."""
 
-    def _clip_from_mesh(self, program: Program, primitive: SurfacePrimitive) -> Matrix:
-        """Say where a mesh's vertices go; of a plane without end also where its pixels lie."""
-        assert self._frame is not None
-        clip_from_object: Matrix = self._frame.clip_from_object[primitive.number]
-        tile = primitive.mesh.tile
-        if tile is None or not primitive.hidden:
-            return clip_from_object
-        eye_from_object = self._frame.scene.world_from_object[primitive.number].copy()
-        eye_from_object[:3, 3] -= self._frame.scene.view.world_from_camera[:3, 3]
-        places = plane_uniforms(tile, clip_from_object, eye_from_object, self._frame.size)
-        for name, value in places.items():
-            program.set(name, value)
-        return whole_target(tile)
-
     def _begin_blending(self) -> None:
         """Let colours, premultiplied, lie over what is there; depth is asked but not changed."""
         assert self._frame is not None
@@ -230,7 +229,7 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         program.set("corner", self._frame.corner)
         program.set("picture_size", self._frame.picture)
         program.set("samples_per_side", self._frame.supersampling)
-        self._bind_surface(program, shading)
+        self._units.bind(program, shading)
         start = time.perf_counter()
         self._no_vertices = self._no_vertices or int(GL.glGenVertexArrays(1))
         self._frame.target.write(averaged=False, nearest=False)
@@ -258,30 +257,18 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
             program.drawn = True
             self.jit_seconds += time.perf_counter() - start
 
-    def _bind_surface(self, program: Program, shading: Shading) -> None:
-        """Give the bound program a surface's parameters and pictures."""
-        assert self._frame is not None
-        for name, value in shading.uniforms.items():
-            program.set(name, value)
-        named = zip(shading.layout.samplers, shading.pictures, strict=True)
-        for unit, (name, picture) in enumerate(named):
-            program.set(name, unit)
-            if self._frame.bound.get(unit) != picture:
-                self._frame.bound[unit] = picture
-                GL.glActiveTexture(GL.GL_TEXTURE0 + unit)
-                GL.glBindTexture(GL.GL_TEXTURE_2D, picture.texture.number)
-                GL.glBindSampler(unit, self._samplers.get(picture.sampling, picture.border))
-
     def trim(self) -> None:
         """Free what exceeds the bounds; call it when nothing is being drawn."""
         self._programs.trim()
-        self._samplers.trim()
+        self._units.trim()
+        self._shadows.trim()
         self._layers.trim()
 
     def delete(self) -> None:
         """Free programs, samplers and buffers."""
         self._programs.delete()
-        self._samplers.delete()
+        self._units.delete()
+        self._shadows.delete()
         self._layers.trim()
         GL.glDeleteBuffers(1, [self._stream])
         GL.glDeleteVertexArrays(1, [self._no_vertices])

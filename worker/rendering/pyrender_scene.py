@@ -12,6 +12,7 @@ from worker.geometry.transforms import Matrix, normal_matrix
 from worker.rendering.draw_order import back_to_front, nearness
 from worker.rendering.gl_context import GL, floats
 from worker.rendering.infinite_planes import eye_side
+from worker.rendering.programs import Program
 from worker.rendering.shading import Shading
 from worker.rendering.vertex_arrays import VertexArray
 
@@ -146,6 +147,7 @@ class FlatScene(pyrender.Scene):  # type: ignore[misc]
         background: What is behind everything.
         view: The eye.
         in_order: Its nodes as they are drawn.
+        eye: As lib/fragment.glsl wants it.
         world_from_object: (n, 4, 4), by the number of the drawable.
         eye_from_object: float32 (n, 4, 4), axes of the world and origin at the eye.
         normal_from_object: float32 (n, 3, 3).
@@ -156,6 +158,7 @@ class FlatScene(pyrender.Scene):  # type: ignore[misc]
     ) -> None:
         """Put drawables and the eye into a scene of pyrender's."""
         super().__init__(bg_color=np.zeros(4), ambient_light=np.zeros(3))
+        self._drawables = drawables
         self.background = background
         self.view = view
         camera = MatrixCamera(view.clip_from_camera)
@@ -164,6 +167,8 @@ class FlatScene(pyrender.Scene):  # type: ignore[misc]
         matrices = matrices.reshape(-1, 4, 4)
         eye_from_object = matrices.copy()
         eye_from_object[:, :3, 3] -= view.world_from_camera[:3, 3]
+        backward = view.world_from_camera[:3, 2]
+        self.eye = np.append(backward, 0.0) if view.orthographic else np.array([0.0, 0.0, 0.0, 1.0])
         self.world_from_object = matrices
         self.eye_from_object = floats(eye_from_object)
         self.normal_from_object = floats(normal_matrix(matrices))
@@ -173,6 +178,27 @@ class FlatScene(pyrender.Scene):  # type: ignore[misc]
             nodes.append(PlacedNode(matrices[number], mesh=pyrender.Mesh([primitive])))
             self.add_node(nodes[-1])
         self.in_order = [nodes[number] for number in _drawing_order(drawables, view)]
+
+    def corners(self) -> NDArray[np.float64]:
+        """Give the corners of boxes that hold all that has an end: (n, 3) in the world."""
+        boxes = [
+            np.stack(np.meshgrid(*drawable.mesh.bounds.T), axis=-1).reshape(-1, 3)
+            @ drawable.world_from_object[:3, :3].T
+            + drawable.world_from_object[:3, 3]
+            for drawable in self._drawables
+            if drawable.mesh.tile is None
+        ]
+        return np.concatenate([np.empty((0, 3)), *boxes])
+
+    def place(self, program: Program, primitive: SurfacePrimitive) -> None:
+        """Tell the bound program where a primitive stands to the eye."""
+        program.set("eye", self.eye)
+        if "eye_position" in program.uniforms:
+            program.set("eye_position", self.view.world_from_camera[:3, 3])
+            program.set("camera_from_world", self.view.world_from_camera[:3, :3].T)
+        program.set("eye_from_object", self.eye_from_object[primitive.number])
+        program.set("normal_from_object", self.normal_from_object[primitive.number])
+        program.set("handedness", -1.0 if primitive.mirrored else 1.0)
 
     def get_pose(self, node: PlacedNode) -> Matrix:
         """Return where a node stands, without a search for its parents."""

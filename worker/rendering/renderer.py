@@ -20,7 +20,7 @@ from worker.errors import RenderError
 from worker.images.image import Image
 from worker.models.model import Model
 from worker.rendering.gl_context import GLContext, check
-from worker.rendering.lighting import light_uniforms
+from worker.rendering.lighting import Lighting, lighting
 from worker.rendering.packing import PICTURE, PLACES
 from worker.rendering.pyrender_adapter import FloatRenderer
 from worker.rendering.pyrender_scene import FlatScene
@@ -118,7 +118,8 @@ def render(
         scene, width / height, textures, models, tangents="tangent" in output.layers
     )
     placed = FlatScene(built.drawables, built.view, built.background)
-    lights = light_uniforms(built.lights, built.view.world_from_camera[:3, 3])
+    eye = built.view.world_from_camera[:3, 3]
+    lights = lighting(built.lights, eye, built.cookies, placed.corners)
     timings = {"build_ms": _milliseconds(time.perf_counter() - start)}
     counts = {"triangles": built.triangles, "texels": built.texels}
     drawn = _bands(engine, placed, lights, output, timings, report)
@@ -128,7 +129,7 @@ def render(
 def _bands(
     engine: _Engine,
     scene: FlatScene,
-    lights: dict[str, Any],
+    lights: Lighting,
     output: RenderOutput,
     timings: dict[str, float],
     report: Report,
@@ -139,7 +140,10 @@ def _bands(
     most = LAYERED_SAMPLES_MAX if layered else SAMPLES_MAX
     size = tile_size(width, height, supersampling, most)
     target = engine.targets.fit(*size, supersampling, layered=layered)
-    spent, jit_before = 0.0, engine.renderer.jit_seconds
+    jit_before = engine.renderer.jit_seconds
+    start = time.perf_counter()
+    engine.renderer.draw_shadows(scene, lights)
+    spent = time.perf_counter() - start
     for tiles in bands(width, height, size):
         start = time.perf_counter()
         above = height - tiles[0].bottom - tiles[0].height

@@ -27,7 +27,9 @@ from worker.images.relief import Preparation, prepared
 from worker.images.stored_form import BOX, StoredForm, stored
 from worker.models.model import Model, Part
 from worker.rendering.cache import ByteCache
+from worker.rendering.cookies import Cookies, cookies_of
 from worker.rendering.displacing import with_relief
+from worker.rendering.lookups import TextureSource
 from worker.rendering.model_changes import seen_parts
 from worker.rendering.pyrender_scene import Background, Drawable, View
 from worker.rendering.relief_shading import TangentsWanted, tangents_wanted
@@ -64,6 +66,7 @@ class BuiltScene:
     drawables: tuple[Drawable, ...]
     view: View
     lights: tuple[Light, ...]
+    cookies: Cookies
     background: Background | None
     triangles: int
     texels: int
@@ -143,22 +146,24 @@ class SceneBuilder:
         )
         view = view_of(scene.camera, models, vertices, aspect, endless=endless)
         lights, left_out = lights_of(scene.lights, models, view.world_from_camera)
+        cookies = cookies_of(lights, self._source(maker))
         background = self._background(scene.background, maker)
         shadings = [drawable.shading for drawable in drawables]
         if isinstance(background, Shading):
             shadings.append(background)
-        pictures = {
+        worn_pictures = [picture for shading in shadings for picture in shading.pictures]
+        textures = {
             picture.texture.number: picture.texture
-            for shading in shadings
-            for picture in shading.pictures
+            for picture in (*worn_pictures, *cookies.pictures)
         }
         return BuiltScene(
             drawables=tuple(drawables),
             view=view,
             background=background,
             lights=tuple(lights),
+            cookies=cookies,
             triangles=sum(len(mesh.elements) for mesh in kept),
-            texels=sum(texture.width * texture.height for texture in pictures.values()),
+            texels=sum(texture.width * texture.height for texture in textures.values()),
             warnings=tuple(
                 dict.fromkeys(itertools.chain(*(item.model.warnings for item in models), left_out))
             ),
@@ -184,6 +189,9 @@ class SceneBuilder:
         return self._meshes.get((item.key, wanted), make)
 
     def _shading(self, surface: SurfaceSpec, maker: TextureMaker) -> Shading:
+        return shade(surface, self._source(maker))
+
+    def _source(self, maker: TextureMaker) -> TextureSource:
         def texture_of(
             spec: TextureSpec,
             meaning: Meaning,
@@ -201,7 +209,7 @@ class SceneBuilder:
                 lambda: _upload(prepared(maker(spec, meaning), preparation), levels, cut, form),
             )
 
-        return shade(surface, texture_of)
+        return texture_of
 
     def _background(
         self, spec: list[float] | ColorMap | None, maker: TextureMaker

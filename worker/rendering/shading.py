@@ -16,7 +16,7 @@ from api_schemas.maps import ColorMap, NumberMap
 from api_schemas.relief import AnyMap
 from worker.errors import RenderError
 from worker.images.pyramids import Cut
-from worker.images.relief import Preparation
+from worker.images.relief import Preparation, Unpacked
 from worker.rendering import relief_shading
 from worker.rendering.calls import choice
 from worker.rendering.chunks import chunk
@@ -122,10 +122,12 @@ class _Plan:
         self.uniforms[name + "_bias"] = value.bias
         if isinstance(value, NumberMap):
             self.uniforms[name + "_scale"] = value.scale
-            self.uniforms[name + "_channel"] = "rgba".index(value.channel)
+            self.uniforms[name + "_channel"] = _channel(value)
         else:
             self.uniforms[name + "_scale"] = value.scale * np.array(value.tint)
-        return Parameter(name, kind, self.lookups.add(value, _MEANINGS[kind], cut))
+        packed = isinstance(value, NumberMap) and value.channel == "packed"
+        preparation = Unpacked() if packed else None
+        return Parameter(name, kind, self.lookups.add(value, _MEANINGS[kind], cut, preparation))
 
     def opacity(self, surface: SurfaceSpec) -> Parameter | None:
         """Lay out the opacity, unless it is ignored."""
@@ -135,8 +137,7 @@ class _Plan:
         if surface.alpha_mode == "mask":
             self.uniforms["alpha_cutoff"] = surface.alpha_cutoff
             if isinstance(mapped := surface.opacity, NumberMap):
-                channel = "rgba".index(mapped.channel)
-                cut = Cut(channel, mapped.scale, mapped.bias, surface.alpha_cutoff)
+                cut = Cut(_channel(mapped), mapped.scale, mapped.bias, surface.alpha_cutoff)
         return self.parameter(surface, "opacity", "float", cut)
 
     def relief(self, surface: SurfaceSpec) -> ReliefLayout:
@@ -148,6 +149,10 @@ class _Plan:
         layout, uniforms = relief_shading.lay_out(surface, look_up)
         self.uniforms |= uniforms
         return layout
+
+
+def _channel(mapped: NumberMap) -> int:
+    return 0 if mapped.channel == "packed" else "rgba".index(mapped.channel)
 
 
 def _plain(surface: SurfaceSpec, name: str, kind: str, value: Any) -> Any:

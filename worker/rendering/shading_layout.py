@@ -48,6 +48,32 @@ class PictureLayout:
 
 
 @dataclass(frozen=True, slots=True)
+class CookieLayout:
+    """A picture before a light: how texels become a pixel, and its texture unit."""
+
+    filter: Filter
+    picture: PictureLayout
+
+
+@dataclass(frozen=True, slots=True)
+class LightLayout:
+    """What the programs of lit surfaces know of a scene's lights.
+
+    Attributes:
+        shadows: Whether any casts shadows.
+        cookies: The pictures before them.
+    """
+
+    shadows: bool = False
+    cookies: tuple[CookieLayout, ...] = ()
+
+    @property
+    def samplers(self) -> tuple[str, ...]:
+        """The names of the cookies' texture units in the program."""
+        return tuple(f"cookie_{number}" for number in range(len(self.cookies)))
+
+
+@dataclass(frozen=True, slots=True)
 class ReliefLayout:
     """What moves and tilts a point before anything else is read.
 

@@ -92,10 +92,15 @@ class VertexArray:
         )
 
     @functools.cached_property
+    def bounds(self) -> NDArray[np.float64]:
+        """Lower and upper corner of its bounding box, (2, 3)."""
+        corners = [self.positions.min(axis=0), self.positions.max(axis=0)]
+        return np.array(corners, dtype=np.float64)
+
+    @property
     def centre(self) -> NDArray[np.float64]:
         """The middle of its bounding box, (3,)."""
-        low, high = self.positions.min(axis=0), self.positions.max(axis=0)
-        middle: NDArray[np.float64] = 0.5 * low.astype(np.float64) + 0.5 * high.astype(np.float64)
+        middle: NDArray[np.float64] = self.bounds.mean(axis=0)
         return middle
 
     @functools.cached_property

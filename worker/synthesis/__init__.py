@@ -7,9 +7,10 @@ Every technique module has
     ) -> Image | Outcome
 
 with size = (width, height), `inputs` the pictures that the spec's fields hold, by field name,
-made at the same size, and `report` to be told the share that is done and the step, where there are
-steps. It is a pure function: no clock, no state, inputs are never modified. An Outcome is a picture
-with layers beside it, or with something to say of it.
+made at the same size unless the spec's `inner_size` says otherwise, and `report` to be told the
+share that is done and the step, where there are steps. It is a pure function: no clock, no state,
+inputs are never modified. An Outcome is a picture with layers beside it, or with something to say
+of it.
 One whose spec is `solid` but not `pointwise` also has
 
     def synthesize_volume(
@@ -35,6 +36,8 @@ from typing import TYPE_CHECKING, cast
 
 from api_schemas.families import Meaning, TextureSpec
 from api_schemas.language import FAMILIES
+from api_schemas.maps import DATA
+from api_schemas.parameters import ParameterMap
 from api_schemas.textures.image import ImageSpec
 from api_schemas.walk import meaning_of
 from worker.closed_form import ClosedForm
@@ -49,7 +52,9 @@ if TYPE_CHECKING:
     from worker.images.image import Image
     from worker.stages import Report
 
+    Size = tuple[int, int]
     Key = tuple[str, Meaning]
+    SizedKey = tuple[str, Meaning, Size]
     Load = Callable[[ImageSpec, Meaning], Image]
 
 
@@ -80,7 +85,8 @@ def outcome(
 
     Args:
         spec: A texture of any technique.
-        size: Width and height in pixels, also of every nested picture.
+        size: Width and height in pixels, also of what is nested in it but for techniques that
+            count in cells of their own.
         load: Gives the picture of an uploaded asset in linear light, at its own size, for a slot
             that is read as colour or as data.
         meaning: Of the slot that the texture itself is in.
@@ -89,16 +95,17 @@ def outcome(
     Raises:
         WorkerError: Whatever `load` or a technique raises.
     """
-    uses = Counter(_keys(spec, meaning))
-    shared: dict[Key, Outcome] = {}
+    uses = Counter(_sized_keys(spec, meaning, size))
+    shared: dict[SizedKey, Outcome] = {}
     done = 0
 
-    def make(spec: TextureSpec, meaning: Meaning) -> Outcome:
+    def make(spec: TextureSpec, meaning: Meaning, size: Size) -> Outcome:
         nonlocal done
-        key = _key(spec, meaning)
+        key = (*_key(spec, meaning), size)
         if key in shared:
             return shared[key]
-        inputs = {name: make(*slot).image for name, slot in _slots(spec, meaning).items()}
+        inner = spec.inner_size(size)
+        inputs = {name: make(*slot, inner).image for name, slot in _slots(spec, meaning).items()}
         if isinstance(spec, ImageSpec):
             inputs["asset"] = load(spec, meaning)
         before = done
@@ -114,7 +121,7 @@ def outcome(
             shared[key] = finished
         return finished
 
-    return make(spec, meaning)
+    return make(spec, meaning, size)
 
 
 def synthesize_volume(
@@ -217,6 +224,8 @@ def _slots(spec: TextureSpec, meaning: Meaning) -> dict[str, tuple[TextureSpec, 
         value = getattr(spec, name)
         if isinstance(value, TextureSpec):
             slots[name] = (value, meaning_of(field, meaning))
+        elif isinstance(value, ParameterMap):
+            slots[name] = (value.texture, DATA.meaning)
     return slots
 
 
@@ -228,6 +237,12 @@ def _keys(spec: TextureSpec, meaning: Meaning) -> Iterator[Key]:
     yield _key(spec, meaning)
     for slot in _slots(spec, meaning).values():
         yield from _keys(*slot)
+
+
+def _sized_keys(spec: TextureSpec, meaning: Meaning, size: Size) -> Iterator[SizedKey]:
+    yield (*_key(spec, meaning), size)
+    for slot in _slots(spec, meaning).values():
+        yield from _sized_keys(*slot, spec.inner_size(size))
 
 
 def _module(technique: str) -> ModuleType:

@@ -22,7 +22,7 @@ from worker.images.volume import Volume
 from worker.synthesis._counter_hash import hashes, uniforms
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Mapping
 
     from numpy.typing import NDArray
 
@@ -46,18 +46,18 @@ def synthesize_volume(
 
 
 def mean_at(
-    spec: GardnerSpec, places: NDArray[np.float64], reach: Sequence[float]
+    spec: GardnerSpec, places: NDArray[np.float64], sides: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Return means (n,) over boxes around points of the plane (n, 2) or of space (n, 3).
+    """Return means (n,) over parallelograms or boxes around points.
 
     Args:
         spec: The waves.
-        places: In tiles.
-        reach: Lengths of a box along each axis, in tiles.
+        places: Of the plane (n, 2) or of space (n, 3), in tiles.
+        sides: Of every box, (sides, 2) or (sides, 3), in tiles.
     """
     axes = places.shape[1]
     cycles, phases = waves_of(spec, axes)
-    fades = np.sinc(cycles[:, :axes] * np.array(reach)).prod(axis=1)
+    fades = np.sinc(cycles[:, :axes] @ sides.T).prod(axis=1)
     scale, bias = _scale_and_bias(spec)
     angles = 2 * np.pi * (places @ cycles[:, :axes].T) + phases
     means: NDArray[np.float64] = np.cos(angles) @ fades * (scale / len(cycles)) + bias

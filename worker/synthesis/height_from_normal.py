@@ -33,7 +33,7 @@ def synthesize(
 
     The report tells the mean slopes, and of the others the share that no relief has.
     """
-    along_u, along_v = _slopes(spec, inputs["normal"])
+    along_u, along_v = slopes(inputs["normal"], spec.normal_range, spec.green)
     heights, lacking = integrated(along_u, along_v)
     pixels = heights / spec.depth + (0.5 if spec.range == "unit" else 0.0)
     tilt = [float(along_u.mean()), float(along_v.mean())]
@@ -73,16 +73,17 @@ def _swings(length: int) -> NDArray[np.float64]:
     return swings
 
 
-def _slopes(
-    spec: HeightFromNormalSpec, image: Image
+def slopes(
+    image: Image, normal_range: str, green: str
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the slopes along u and v of the relief that a normal map's normals stand on."""
     normals = np.zeros((image.height, image.width, 3))
     normals[..., : min(image.channels, 3)] = wide(image.pixels[..., :3])
     if image.channels < 3:
-        normals[..., 2] = 1.0 if spec.normal_range == "signed" else 0.5
-    if spec.normal_range == "unit":
+        normals[..., 2] = 1.0 if normal_range == "signed" else 0.5
+    if normal_range == "unit":
         normals = 2 * normals - 1
     least = np.linalg.norm(normals, axis=-1) / _STEEPEST
     out = np.maximum(normals[..., 2], np.maximum(least, np.finfo(np.float64).tiny))
-    up = -1 if spec.green == "up" else 1
+    up = -1 if green == "up" else 1
     return -normals[..., 0] / out, up * normals[..., 1] / out

@@ -29,17 +29,15 @@ def synthesize(
     Stops count by position; of several at one position the one written last begins there and the
     one written first ends there. NaN takes the first colour.
     """
+    return Image(colored(spec, np.array(inputs["input"].pixels[..., 0])), spec.meaning)
+
+
+def colored(spec: RampSpec, scalars: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Return the colours (height, width, 3) of scalars (height, width)."""
     positions, colors = _stops(spec)
-    width, height = size
-    pixels = np.empty((height, width, colors.shape[1]), np.float32)
-    _fill_ramp(
-        pixels,
-        np.array(inputs["input"].pixels[..., 0]),
-        positions,
-        colors,
-        _INTERPOLATIONS[spec.interpolation],
-    )
-    return Image(pixels, spec.meaning)
+    pixels = np.empty((*scalars.shape, 3), np.float32)
+    _fill_ramp(pixels, scalars, positions, colors, _INTERPOLATIONS[spec.interpolation])
+    return pixels
 
 
 def closed_form(spec: RampSpec, *, solid: bool) -> Mapping[str, Parameter]:

@@ -7,16 +7,13 @@ from worker.rendering.chunks import chunk, join
 from worker.rendering.closed_forms import formula
 from worker.rendering.gl_context import GL, check, floats
 from worker.rendering.programs import Program
-from worker.rendering.renderer import open_context
+from worker.rendering.renderer import _engine
 from worker.rendering.targets import Target
 
 
-def drawn(form: ClosedForm, places: np.ndarray, reach: float) -> np.ndarray:
-    """Evaluate a form at places (n, 3) whose neighbours are `reach` away along u and along v.
-
-    In space the box reaches as far along w.
-    """
-    open_context()
+def drawn(form: ClosedForm, places: np.ndarray, steps: np.ndarray) -> np.ndarray:
+    """Evaluate a form, (n, 4), at places (n, 3) with steps (2, 3) to the neighbouring pixels."""
+    _engine().context.check_thread()
     found = formula(form, "texture")
     fragment = "\n".join(
         [
@@ -24,12 +21,11 @@ def drawn(form: ClosedForm, places: np.ndarray, reach: float) -> np.ndarray:
             *(f'#include "{name}"' for name in found.chunks),
             *found.declarations,
             "uniform sampler2D places;",
-            "uniform vec4 reach;",
+            "uniform vec3 steps[2];",
             "out vec4 color;",
             "void main() {",
             "    vec3 place = texelFetch(places, ivec2(gl_FragCoord.xy), 0).xyz;",
-            "    vec3 across_x = vec3(reach.x, 0.0, reach.x * reach.y);",
-            "    vec3 across_y = vec3(0.0, reach.x, 0.0);",
+            "    vec3 across_x = steps[0], across_y = steps[1];",
             f"    color = {found.call};",
             "}",
         ]
@@ -63,7 +59,7 @@ def drawn(form: ClosedForm, places: np.ndarray, reach: float) -> np.ndarray:
             GL.glDisable(state)
         program.bind()
         program.set("places", 0)
-        program.set("reach", [reach, float(places[:, 2].any()), 0.0, 0.0])
+        program.set("steps", steps)
         for name, value in found.uniforms.items():
             program.set(name, value)
         GL.glBindVertexArray(arrays)

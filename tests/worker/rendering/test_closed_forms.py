@@ -13,8 +13,9 @@ from worker.synthesis._perlin_sums import KINDS
 
 TOLERANCE = 1e-5
 COUNT = 4096
-PIXEL = 1 / 512
-"""Sides of the box that is averaged: 1/512 of a tile, but 1/8 where a test says so."""
+PIXEL = np.array([[1, 0, 0], [0, 1, 0]]) / 512
+"""Steps to a pixel's neighbours, in tiles."""
+LEANING = np.array([[1, 0.25, -0.5], [0, 1, 0.25]]) / 512
 STOPS = [
     {"position": 0.2, "color": [1.0, 0.0, 0.25]},
     {"position": 0.45, "color": [0.0, 2.0, 0.5]},
@@ -43,20 +44,20 @@ def draw():
     return drawn
 
 
-def perlin_at(texture, where, reach):
-    return perlin.noise_at(texture, where, 1 / reach)[0]
+def perlin_at(texture, where, steps):
+    return perlin.noise_at(texture, where, 1 / np.linalg.norm(steps, axis=1).max())[0]
 
 
-def gardner_at(texture, where, reach):
-    return gardner.mean_at(texture, where, [reach] * where.shape[1])
+def gardner_at(texture, where, steps):
+    return gardner.mean_at(texture, where, steps)
 
 
-def worley_at(texture, where, reach):
+def worley_at(texture, where, steps):
     return worley.distances_at(texture, where)
 
 
-def checkerboard_at(texture, where, reach):
-    return checkerboard.color_at(texture, where, [reach] * where.shape[1])
+def checkerboard_at(texture, where, steps):
+    return checkerboard.color_at(texture, where, abs(steps).sum(axis=0))
 
 
 AT = {
@@ -97,11 +98,12 @@ def name_of(body):
 @pytest.mark.parametrize("body", BODIES, ids=name_of)
 def test_a_fragment_shows_what_the_point_has(draw, body, solid):
     texture, axes = spec(body), 3 if solid else 2
-    where = places(axes)
+    where, steps = places(axes), LEANING if solid else PIXEL
 
-    shown = draw(synthesis.closed_form(texture, solid=solid), where, PIXEL)
+    shown = draw(synthesis.closed_form(texture, solid=solid), where, steps)
 
-    expected = AT[texture.technique](texture, where[:, :axes].astype(np.float64), PIXEL)
+    points = where[:, :axes].astype(np.float64)
+    expected = AT[texture.technique](texture, points, steps[:, :axes])
     expected = expected[:, np.newaxis] if expected.ndim == 1 else expected
     assert abs(shown[:, :3] - expected).max() <= TOLERANCE
     assert (shown[:, 3] == 1).all()
@@ -113,9 +115,9 @@ def test_what_a_large_pixel_cannot_show_is_averaged_or_fades(draw, name):
     texture = spec({"technique": name})
     where = places(2)
 
-    shown = draw(synthesis.closed_form(texture, solid=False), where, 1 / 10)
+    shown = draw(synthesis.closed_form(texture, solid=False), where, PIXEL * 51.2)
 
-    expected = AT[name](texture, where[:, :2].astype(np.float64), 1 / 10)
+    expected = AT[name](texture, where[:, :2].astype(np.float64), PIXEL[:, :2] * 51.2)
     expected = expected[:, np.newaxis] if expected.ndim == 1 else expected
     assert abs(shown[:, :3] - expected).max() <= TOLERANCE
 
@@ -125,7 +127,7 @@ def test_a_pixel_without_extent_shows_the_point_itself(draw):
     board = spec({"technique": "checkerboard"})
     where = places(2)[8:]  # on an edge it is neither
 
-    shown = draw(synthesis.closed_form(board, solid=False), where, 0.0)
+    shown = draw(synthesis.closed_form(board, solid=False), where, PIXEL * 0)
 
     expected = checkerboard.color_at(board, where[:, :2].astype(np.float64), [0.0, 0.0])
     assert abs(shown[:, :3] - expected).max() <= TOLERANCE
@@ -145,7 +147,7 @@ def test_a_ramp_colours_what_is_in_it(draw, interpolation):
 
     # Read off the noise that the fragment shows itself: a flat band's edge is infinitely steep
     value = draw(form.inputs["input"], where, PIXEL)[:, :1]
-    expected = ramp.colored(texture, value)
+    expected = ramp.colored(texture, value)[:, 0]
     # 1e-7 of a value between stops .15 apart, whose colours are 2 apart
     assert abs(shown[:, :3] - expected).max() <= TOLERANCE
 

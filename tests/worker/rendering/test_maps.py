@@ -8,6 +8,7 @@ import pytest
 from api_schemas.families import SurfaceSpec
 from api_schemas.language import FAMILIES
 from tests.worker.rendering.studio import Studio
+from worker.images.packed_floats import packed
 
 pytestmark = pytest.mark.gl
 
@@ -140,3 +141,23 @@ def test_numbers_do_not_make_new_programs(studio: Studio) -> None:
     draw(transform={"offset": [3.0, 1.0]}, bias=0.5)
 
     assert studio.facts["jit_ms"] == 0
+
+
+def test_packed_numbers_are_read_whole_and_blended_as_numbers(studio: Studio) -> None:
+    # T62: a table of four numbers, looked up halfway between two of them
+    table = studio.texture(packed(np.float32([[1.5, -2.25, 1000.125, 3e-20]])))
+    how = {"channel": "packed", "wrap": ["clamp", "clamp"]}
+
+    def read(u: float, filter_name: str) -> float:
+        mapped = {
+            "texture": table,
+            "filter": filter_name,
+            "transform": {"scale": [0.0, 0.0], "offset": [u, 0.5]},
+            **how,
+        }
+        surface = {"technique": "phong", "emission": [1.0, 1.0, 1.0]}
+        opacity = {"opacity": {**mapped, "scale": 1e-4, "bias": 0.5}, "alpha_mode": "blend"}
+        return float(studio.poster(surface | opacity, (1, 1))[0, 0, 3])
+
+    assert read(0.625, "nearest") == pytest.approx(0.5 + 0.1000125, abs=1e-7)
+    assert read(0.5, "bilinear") == pytest.approx(0.5 + (1000.125 - 2.25) / 2e4, abs=1e-7)

@@ -161,7 +161,7 @@ def test_points_are_what_grids_show(size, made):
     centres[1] = centres[1][::-1]
     places = np.stack(np.meshgrid(*centres[::-1], indexing="ij")[::-1], axis=-1)
 
-    found = mean_at(spec(waves=waves), places.reshape(-1, len(size)), [1 / n for n in size])
+    found = mean_at(spec(waves=waves), places.reshape(-1, len(size)), np.diag(1 / np.array(size)))
 
     assert made(size, waves=waves).ravel() == pytest.approx(found, abs=GEMM_ERROR)
 

@@ -20,6 +20,10 @@ out vec2 vertex_uv_0;
 out vec2 vertex_uv_1;
 out vec2 vertex_uv_2;
 out vec2 vertex_uv_3;
+noperspective out vec2 flat_uv_0;  // linear on the screen
+noperspective out vec2 flat_uv_1;
+noperspective out vec2 flat_uv_2;
+noperspective out vec2 flat_uv_3;
 
 // Unit length, or none where there is none; the largest component is taken out lest squares vanish.
 vec3 direction_of(vec3 vector) {
@@ -40,5 +44,9 @@ void main() {
     vertex_uv_1 = mesh_uv_1;
     vertex_uv_2 = mesh_uv_2;
     vertex_uv_3 = mesh_uv_3;
+    flat_uv_0 = mesh_uv_0;
+    flat_uv_1 = mesh_uv_1;
+    flat_uv_2 = mesh_uv_2;
+    flat_uv_3 = mesh_uv_3;
     gl_Position = clip_from_object * vec4(mesh_position, 1.0);
 }

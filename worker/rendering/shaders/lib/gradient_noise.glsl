@@ -1,6 +1,7 @@
 #include "lib/lattice.glsl"
 
-const int EIGHT = 0, REFERENCE = 1, SOLID = 2, TIME = 3;
+// Sets of gradients, in the order of GRADIENTS in worker/synthesis/_perlin_points.py
+const int REFERENCE = 0, EIGHT = 1, SOLID = 2, TIME = 3;
 
 // A permutation of 0..255, four numbers at a time.
 int permuted(vec4 table[64], int index) {

@@ -29,7 +29,7 @@ vec4 shade(SurfacePoint point, Surface surface) {
     float matt_seen = 1.0 - schlick(0.5 * seen);
     vec3 radiance = surface.emission + (matt + gloss) * ambient_radiance;
     for (int i = 0; i < light_count; i++) {
-        Light light = light_at(i, point.position);
+        Light light = light_at(i, point);
         float facing = dot(point.normal, light.direction);
         if (facing <= 0.0) continue;
         vec3 half_way = normalize(light.direction + point.view);

@@ -27,7 +27,7 @@ vec4 shade(SurfacePoint point, Surface surface) {
     float exponent = max(surface.exponent, 0.0);
     vec3 radiance = surface.emission + matt * ambient_radiance;
     for (int i = 0; i < light_count; i++) {
-        Light light = light_at(i, point.position);
+        Light light = light_at(i, point);
         float facing = dot(point.normal, light.direction);
         if (facing <= 0.0) continue;
         vec3 mirrored = 2.0 * facing * point.normal - light.direction;

@@ -87,7 +87,7 @@ vec4 shade(SurfacePoint point, Surface surface) {
     vec3 radiance = surface.emission + all_around * (below_all + reflected_of_all(both, table));
     vec3 on_coat = all_around * reflectance(coat_seen, surface.clearcoat_roughness).b;
     for (int i = 0; i < light_count; i++) {
-        Light light = light_at(i, point.position);
+        Light light = light_at(i, point);
         vec3 half_way = light.direction + point.view;
         half_way *= inversesqrt(max(dot(half_way, half_way), 1e-20));
         float grazing = schlick(dot(point.view, half_way));

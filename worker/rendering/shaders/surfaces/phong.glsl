@@ -32,7 +32,7 @@ vec4 shade(SurfacePoint point, Surface surface) {
     precise vec3 ambient = surface.ambient_weight * surface.ambient_color * point.color.rgb;
     precise vec3 radiance = surface.emission + ambient * ambient_radiance;
     for (int i = 0; i < light_count; i++) {
-        Light light = light_at(i, point.position);
+        Light light = light_at(i, point);
         float facing = dot(point.normal, light.direction);
         if (facing <= 0.0) continue;
         vec3 mirrored = 2.0 * facing * point.normal - light.direction;

@@ -26,7 +26,7 @@ vec4 shade(SurfacePoint point, Surface surface) {
     float seen = max(dot(point.normal, point.view), 1e-4);
     vec3 radiance = surface.emission + (matt + gloss) * ambient_radiance;
     for (int i = 0; i < light_count; i++) {
-        Light light = light_at(i, point.position);
+        Light light = light_at(i, point);
         float facing = dot(point.normal, light.direction);
         if (facing <= 0.0) continue;
         vec3 half_way = light.direction + point.view;

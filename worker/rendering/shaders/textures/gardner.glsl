@@ -1,8 +1,8 @@
 // Turns of a wave at a place: a whole number of swings per tile, in two halves as of a lattice.
 float turns(float place, float swings) {
-    float x = place - floor(place);
-    float coarse = floor(x * 4096.0);
-    return float(int(coarse) * int(swings) & 4095) / 4096.0 + (x - coarse / 4096.0) * swings;
+    float coarse = floor(place * 4096.0);
+    int step = int(coarse - 4096.0 * floor(coarse / 4096.0));
+    return float(step * int(swings) & 4095) / 4096.0 + (place - coarse / 4096.0) * swings;
 }
 
 // sin(pi x) / (pi x)

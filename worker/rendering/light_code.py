@@ -1,0 +1,37 @@
+"""Generated code of lit surfaces: what part of a light comes through, for the lights of a scene."""
+
+from worker.rendering.shading_layout import LightLayout
+
+
+def light_chunks(layout: LightLayout) -> list[str]:
+    """Return the chunks that let_through needs."""
+    chunks = ["lib/lights.glsl"]
+    chunks += ["lib/shadows.glsl"] if layout.shadows else []
+    if layout.cookies:
+        chunks.append("lib/cookies.glsl")
+        chunks += [f"lib/sample_{cookie.filter}.glsl" for cookie in layout.cookies]
+    return chunks
+
+
+def light_lines(layout: LightLayout) -> list[str]:
+    """Write let_through, which lib/lights.glsl asks; without shadows and cookies it is all."""
+    count = len(layout.cookies)
+    declared = [f"uniform sampler2D {name};" for name in layout.samplers]
+    if count:
+        declared += [
+            f"uniform vec4 cookie_period[{count}];",
+            f"uniform vec2 cookie_size[{count}];",
+        ]
+    lines = [*declared, "vec3 let_through(int light, SurfacePoint point) {"]
+    lines.append("    vec3 share = vec3(1.0);")
+    if layout.shadows:
+        lines.append("    share *= unshaded(light, point.position, point.smooth_normal);")
+    if count:
+        lines.append("    Footprint place = cookie_place(light, point.position);")
+    lines += [
+        f"    if (cookie_picture[light] == {number}.0) share *= sample_{cookie.filter}("
+        f"cookie_{number}, "
+        f"look_up(place, mat3(1.0), cookie_period[{number}], cookie_size[{number}])).rgb;"
+        for number, cookie in enumerate(layout.cookies)
+    ]
+    return [*lines, "    return share;", "}"]

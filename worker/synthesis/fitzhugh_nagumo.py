@@ -1,0 +1,49 @@
+"""An excitable medium that settles in mazes.
+
+FitzHugh, 1961; Nagumo et al., 1962; Hagberg and Meron, 1994.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from api_schemas.textures.fitzhugh_nagumo import FitzhughNagumoSpec
+from worker.numba_kernel import kernel
+from worker.synthesis._dish import at
+from worker.synthesis._reaction import Reaction, outcome_of, warmed
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from worker.images.image import Image
+    from worker.stages import Report
+    from worker.synthesis._dish import Cells, Rows
+    from worker.synthesis.outcome import Outcome
+
+
+def synthesize(
+    spec: FitzhughNagumoSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Report
+) -> Outcome:
+    """Let the dish react and bring it to (width, height)."""
+    return outcome_of(Reaction(spec, inputs), _react, size, report)
+
+
+def warm() -> None:
+    """Compile the kernels."""
+    warmed(FitzhughNagumoSpec(technique="fitzhugh_nagumo", size=[16, 16], steps=1), _react)
+
+
+@kernel
+def _react(after: Cells, before: Cells, parameters: tuple[Rows, ...], time_step: float) -> None:
+    _, height, width = before.shape
+    for row in range(1, height - 1):
+        u, v = before[0, row], before[1, row]
+        speed = at(parameters[0], row)
+        epsilon = at(parameters[1], row)
+        slope = at(parameters[2], row)
+        offset = at(parameters[3], row)
+        for x in range(1, width - 1):
+            pace = time_step * speed[x]
+            follows = epsilon[x] * (u[x] - slope[x] * v[x] - offset[x])
+            after[0, row, x] += pace * (u[x] - u[x] * u[x] * u[x] - v[x])
+            after[1, row, x] += pace * follows
