@@ -7,6 +7,7 @@ import pytest
 
 from api_schemas.model_mesh import ModelMesh
 from api_schemas.surfaces.unlit import UnlitSpec
+from tests.worker.rendering.studio import Studio
 from worker.errors import RenderError
 from worker.geometry.plane import plane
 from worker.models.model import Model, NamedSurface, Part
@@ -90,3 +91,14 @@ def test_what_the_model_does_not_have_is_told(changes: dict[str, Any]) -> None:
         seen(**changes)
 
     assert error.value.code == "model_part_unknown"
+
+
+@pytest.mark.gl
+def test_the_surface_of_the_node_covers_those_of_the_model(studio: Studio) -> None:
+    studio.models[ASSET] = MODEL
+    scene = {
+        "camera": {"type": "orthographic", "height": 0.5, "pose": {"eye": [0.0, 0.0, 2.0]}},
+        "nodes": [{"mesh": {"type": "model", "asset": ASSET}, "surface": changed(0.75)}],
+    }
+
+    np.testing.assert_array_equal(studio.draw(scene, (2, 2))[..., :3], 0.75)
