@@ -16,7 +16,7 @@ from api_schemas.cost import Cost
 
 if TYPE_CHECKING:
     from api_schemas.language import MappableNonNegative
-    from api_schemas.maps import NormalMap
+    from api_schemas.maps import LightMap, NormalMap
     from api_schemas.relief import BumpMap, HeightMap, ParallaxMap, TangentFrames
 
 Meaning = Literal["colour", "data"]
@@ -144,6 +144,11 @@ class SurfaceSpec(TechniqueSpec):
         description="Which directions normal and bump maps tilt along: those that bakers use, the "
         "mean of the triangles round each corner, or the parallels and meridians of a globe round "
         "the y axis. They follow the coordinates of the normal map, without one the bump map's.",
+    )
+
+    light_map: LightMap | None = Field(
+        default=None,
+        description="Baked light that arrives besides the lamps', reflected as ambient light is.",
     )
 
     def filled(self) -> Self:

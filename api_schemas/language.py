@@ -25,7 +25,7 @@ from api_schemas.families import (
     TechniqueSpec,
     TextureSpec,
 )
-from api_schemas.maps import ColorMap, Map, NormalMap, NumberMap, ScaledMap
+from api_schemas.maps import ColorMap, LightMap, Map, NormalMap, NumberMap, ScaledMap
 from api_schemas.parameters import ParameterMap
 from api_schemas.relief import (
     BumpMap,
@@ -137,10 +137,10 @@ def _complete() -> None:
             "MappableNonNegative",
             "MappableColor",
         )
-    } | {model.__name__: model for model in (NormalMap, BumpMap, HeightMap, ParallaxMap)}
+    } | {model.__name__: model for model in (LightMap, NormalMap, BumpMap, HeightMap, ParallaxMap)}
     names["TangentFrames"] = TangentFrames
     members = [spec for family in FAMILIES.values() for spec in family.values()]
-    models: list[type[Schema]] = [Map, ScaledMap, ColorMap, NumberMap, NormalMap]
+    models: list[type[Schema]] = [Map, ScaledMap, ColorMap, LightMap, NumberMap, NormalMap]
     models += [ReliefMap, BumpMap, HeightMap, ParallaxMap, Displacement, SurfaceSpec]
     models += [ParameterMap, *ParameterMap.__subclasses__(), DishSpec, ReactionSpec, *members]
     for model in models:

@@ -108,6 +108,16 @@ class ColorMap(ScaledMap):
     )
 
 
+class LightMap(ColorMap):
+    """Light that was baked into a picture, mostly on a second set of coordinates."""
+
+    coordinates: Coordinates = Field(
+        default={"technique": "uv", "set": 1},
+        validate_default=True,
+        description="Where on the texture to look.",
+    )
+
+
 class NumberMap(ScaledMap):
     """A texture in the place of a number: one channel of it, never gamma-decoded."""
 

@@ -12,6 +12,7 @@ from api_schemas.language import MappableColor, Surface
 from api_schemas.lights import LIGHTS_MAX, Light
 from api_schemas.meshes import Mesh
 from api_schemas.relief import Displacement
+from api_schemas.surface_maps import SurfaceMap
 from api_schemas.transforms import Placement, Transform
 
 NODES_MAX = 1024
@@ -32,6 +33,14 @@ class Node(Schema):
         default=None,
         description="How the shape reflects light; without one a model has its own materials, and "
         "everything else is matt grey Phong.",
+    )
+    surface_map: SurfaceMap | None = Field(
+        default=None,
+        description="Several surfaces on one shape, and a picture that says which one is where; in "
+        "the place of surface.",
+    )
+    casts_shadows: bool = Field(
+        default=True, description="Whether its own mesh keeps light from what is behind it."
     )
     displacement: Displacement | None = Field(
         default=None, description="A relief that moves the shape's own points, outlines included."

@@ -1,11 +1,11 @@
 """The fragment shader of a surface: its chunk, and generated code that fills its parameters."""
 
-import functools
 from collections.abc import Callable, Iterable, Sequence
 
 from worker.rendering.chunks import Source, chunk, join
 from worker.rendering.light_code import light_chunks, light_lines
 from worker.rendering.relief_fragment import aside, relief_chunks, tilts
+from worker.rendering.shading import is_lit
 from worker.rendering.shading_layout import (
     LightLayout,
     LookupLayout,
@@ -16,7 +16,7 @@ from worker.rendering.shading_layout import (
 VERSION = "#version 410 core"
 _MAIN = ("base_color", "diffuse_color", "color")
 """Parameters whose map is the surface's picture, rather than any other one."""
-_LIGHTS = "lib/lights.glsl"
+_SELECTED = ["uniform int selected;", "uniform float selected_last;"]
 _BY_OPACITY = {
     "mask": "    if (opacity < alpha_cutoff) discard;",
     "blend": "    color *= opacity;",
@@ -38,33 +38,29 @@ def surface_sources(
     return join(chunk("mesh.vert"), "mesh.vert"), join(fragment, layout.technique)
 
 
-@functools.cache
-def is_lit(technique: str) -> bool:
-    """Tell whether a surface asks for the lights: others need no program for their shadows."""
-    name = f"surfaces/{technique}.glsl"
-    return _LIGHTS in join(chunk(name), name).chunks
-
-
 def hole_sources(layout: ShadingLayout) -> tuple[Source, Source]:
     """Return the sources that draw the depth alone, with holes where little or nothing is."""
-    opacity = layout.opacity
-    assert opacity is not None
-    numbers = [] if opacity.lookup is None else [opacity.lookup]
+    read = [p for p in (layout.opacity, layout.selection) if p is not None]
+    numbers = list(dict.fromkeys(p.lookup for p in read if p.lookup is not None))
     calls = [(call, number) for number in numbers for call in layout.lookups[number].calls]
     chunks = ["lib/fragment.glsl", "lib/opacity.glsl", *(call.chunk for call, _ in calls)]
-    cutoff = "alpha_cutoff" if layout.alpha_mode == "mask" else "0.5"
     lines = _head(layout, chunks)
     for call, number in calls:
         lines += call.declarations(number)
+    for parameter in read:
+        lines += _declarations(parameter)
     lines += [
-        *_declarations(opacity),
+        *(_SELECTED if layout.selection else []),
         "void main() {",
         "    SurfacePoint point = surface_point();",
         *_texels(layout, numbers, _place),
-        f"    if (bounded({_value(opacity)}, point.color.a) < {cutoff}) discard;",
-        "}",
     ]
-    return join(chunk("mesh.vert"), "mesh.vert"), join("\n".join(lines), "hole")
+    lines += _selection(layout)
+    if layout.opacity:
+        cutoff = "alpha_cutoff" if layout.alpha_mode == "mask" else "0.5"
+        opacity = f"bounded({_value(layout.opacity)}, point.color.a)"
+        lines.append(f"    if ({opacity} < {cutoff}) discard;")
+    return join(chunk("mesh.vert"), "mesh.vert"), join("\n".join([*lines, "}"]), "hole")
 
 
 def background_sources(layout: ShadingLayout) -> tuple[Source, Source]:
@@ -87,7 +83,8 @@ def background_sources(layout: ShadingLayout) -> tuple[Source, Source]:
 
 
 def _fragment(layout: ShadingLayout, lights: LightLayout, layered: bool, plane: bool) -> str:
-    parameters = [*layout.parameters, *([layout.opacity] if layout.opacity else [])]
+    others = (layout.opacity, layout.light_map, layout.selection)
+    parameters = [*layout.parameters, *(parameter for parameter in others if parameter)]
     chunks = [f"lib/{'infinite_plane' if plane else 'fragment'}.glsl"]
     chunks += [f"surfaces/{layout.technique}.glsl"]
     calls = [(call, n) for n, lookup in enumerate(layout.lookups) for call in lookup.calls]
@@ -104,8 +101,12 @@ def _fragment(layout: ShadingLayout, lights: LightLayout, layered: bool, plane: 
         lines += call.declarations(number)
     for parameter in parameters:
         lines += _declarations(parameter)
+    lines += _SELECTED if layout.selection else []
     lines += ["void main() {", "    SurfacePoint point = surface_point();"]
     lines += _relief(layout)
+    lines += _selection(layout)
+    if layout.light_map:
+        lines.append(f"    baked_radiance = {_value(layout.light_map)};")
     lines.append("    Surface surface;")
     lines += [f"    surface.{p.name} = {_value(p)};" for p in layout.parameters]
     lines.append("    color = holdable(shade(point, surface));")
@@ -117,6 +118,17 @@ def _fragment(layout: ShadingLayout, lights: LightLayout, layered: bool, plane: 
     if plane:
         lines.append("    if (!on_plane()) discard;")
     return "\n".join([*lines, "}"])
+
+
+def _selection(layout: ShadingLayout) -> list[str]:
+    """Write what leaves out the places of other surfaces; what is no number is the first one."""
+    if layout.selection is None:
+        return []
+    return [
+        f"    float chosen = {_value(layout.selection)};",
+        "    chosen = isnan(chosen) ? 0.0 : clamp(floor(chosen + 0.5), 0.0, selected_last);",
+        "    if (int(chosen) != selected) discard;",
+    ]
 
 
 def _head(layout: ShadingLayout, chunks: Sequence[str]) -> list[str]:

@@ -16,14 +16,14 @@ from pyrender.constants import RenderFlags
 
 from worker.geometry.transforms import Matrix, rigid_inverse
 from worker.rendering.chunks import Source
-from worker.rendering.fragment import background_sources, is_lit, surface_sources
+from worker.rendering.fragment import background_sources, surface_sources
 from worker.rendering.frame import Frame, TraversedProgram
 from worker.rendering.gl_context import GL, GLContext, check, floats
 from worker.rendering.layer_uniforms import LayerUniforms
 from worker.rendering.lighting import Lighting
 from worker.rendering.programs import Program, ProgramCache
 from worker.rendering.pyrender_scene import FlatScene, PlacedNode, SurfacePrimitive
-from worker.rendering.shading import Shading
+from worker.rendering.shading import Shading, is_lit
 from worker.rendering.shading_layout import LightLayout
 from worker.rendering.shadow_maps import ShadowMaps
 from worker.rendering.targets import Target
@@ -176,11 +176,11 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         self, primitive: SurfacePrimitive, pose: Matrix, program: Program, flags: int
     ) -> None:
         assert self._frame is not None
-        scene, number = self._frame.scene, primitive.number
+        scene = self._frame.scene
         self._frame.place(program, primitive)
         self._units.bind(program, primitive.material.shading)
         if self._frame.target.layered:
-            program.set("object_id", number + 1)
+            program.set("object_id", primitive.thing)
             program.set("material_id", primitive.material.number)
             self._layers.set(
                 program,

@@ -40,12 +40,23 @@ class View:
 
 @dataclass(frozen=True, slots=True)
 class Drawable:
-    """A mesh in OpenGL, a surface, where they stand, and the number of the surface from 1."""
+    """A mesh in OpenGL, a surface, and where they stand.
+
+    Attributes:
+        mesh: What is drawn.
+        shading: How.
+        world_from_object: Where.
+        material: The number of the surface, from 1.
+        thing: The number of what it is or is a part of, from 1.
+        casts_shadows: Whether it keeps light away.
+    """
 
     mesh: VertexArray
     shading: Shading
     world_from_object: Matrix
     material: int
+    thing: int
+    casts_shadows: bool
 
 
 Background: TypeAlias = Shading | tuple[float, ...]
@@ -73,6 +84,7 @@ class SurfacePrimitive(pyrender.Primitive):  # type: ignore[misc]
     Attributes:
         mesh: What is drawn.
         number: Its place among the drawables.
+        thing: Its object id.
         mirrored: Whether its transform turns the winding of triangles.
         clockwise: Whether the outer sides of triangles are wound clockwise on the screen.
         hidden: Which sides are left out in each pass: outer, inner, or none (None).
@@ -88,6 +100,7 @@ class SurfacePrimitive(pyrender.Primitive):  # type: ignore[misc]
         super().__init__(positions=_NO_VERTICES, material=material)
         self.mesh = drawable.mesh
         self.number = number
+        self.thing = drawable.thing
         self.mirrored = mirrored
         self.clockwise = mirrored
         self.hidden = (GL.GL_BACK,)
@@ -147,6 +160,7 @@ class FlatScene(pyrender.Scene):  # type: ignore[misc]
         background: What is behind everything.
         view: The eye.
         in_order: Its nodes as they are drawn.
+        casters: Those that keep light away.
         eye: As lib/fragment.glsl wants it.
         world_from_object: (n, 4, 4), by the number of the drawable.
         eye_from_object: float32 (n, 4, 4), axes of the world and origin at the eye.
@@ -177,7 +191,9 @@ class FlatScene(pyrender.Scene):  # type: ignore[misc]
             primitive = SurfacePrimitive(drawables[number], number, view, mirrored=bool(mirrored))
             nodes.append(PlacedNode(matrices[number], mesh=pyrender.Mesh([primitive])))
             self.add_node(nodes[-1])
-        self.in_order = [nodes[number] for number in _drawing_order(drawables, view)]
+        order = _drawing_order(drawables, view)
+        self.in_order = [nodes[number] for number in order]
+        self.casters = [nodes[number] for number in order if drawables[number].casts_shadows]
 
     def corners(self) -> NDArray[np.float64]:
         """Give the corners of boxes that hold all that has an end: (n, 3) in the world."""

@@ -33,7 +33,7 @@ from worker.rendering.lookups import TextureSource
 from worker.rendering.model_changes import seen_parts
 from worker.rendering.pyrender_scene import Background, Drawable, View
 from worker.rendering.relief_shading import TangentsWanted, tangents_wanted
-from worker.rendering.shading import Shading, shade
+from worker.rendering.shading import Selection, Shading, shade
 from worker.rendering.staging import PlacedModel, lights_of, view_of
 from worker.rendering.textures import Texture
 from worker.rendering.vertex_arrays import VertexArray
@@ -75,12 +75,26 @@ class BuiltScene:
 
 @dataclass(frozen=True, slots=True)
 class _Placed:
-    """A mesh that is kept or can be made, its surface, and where it stands."""
+    """A mesh that is kept or can be made, its surface, and where it stands.
+
+    With a selection the surface is only where that says.
+    """
 
     key: str
     mesh: Callable[[], Mesh]
     surface: SurfaceSpec
     world_from_object: Matrix
+    node: Node
+    thing: int = 0
+    selection: Selection | None = None
+
+    @property
+    def worn(self) -> str:
+        """What surfaces that share a program and its parameters have in common."""
+        surface = self.surface.model_dump_json()
+        if self.selection is None:
+            return surface
+        return f"{surface} {self.selection.number} {self.selection.among.model_dump_json()}"
 
 
 class SceneBuilder:
@@ -115,28 +129,41 @@ class SceneBuilder:
         """
         placed: list[_Placed] = []
         models: list[PlacedModel] = []
+        things = 0
         for node, matrix in _nodes(scene.nodes, np.eye(4)):
             if isinstance(node.mesh, ModelMesh):
                 model = reader(node.mesh)
                 models.append(PlacedModel(model, matrix))
-                found = list(_parts(node.mesh, node.surface, model, matrix))
+                found = list(_parts(node, node.mesh, model, matrix))
             elif node.mesh is not None:
                 key = node.mesh.model_dump_json()
                 make = partial(primitives.build, node.mesh)
-                found = [_Placed(key, make, node.surface or _MATT_GREY, matrix)]
+                found = [_Placed(key, make, node.surface or _MATT_GREY, matrix, node)]
             else:
                 continue
             if node.displacement is not None:
                 found = [_displaced(item, node.displacement, maker) for item in found]
-            placed += found
+            for item in found:
+                things += 1
+                placed += _selected(replace(item, thing=things))
         kept = [self._kept(item, tangents) for item in placed]
         worn: dict[str, tuple[Shading, int]] = {}
         drawables = []
         for item, mesh in zip(placed, kept, strict=True):
-            key = item.surface.model_dump_json()
+            key = item.worn
             if key not in worn:
-                worn[key] = self._shading(item.surface, maker), len(worn) + 1
-            drawables.append(Drawable(mesh, worn[key][0], item.world_from_object, worn[key][1]))
+                shading = shade(item.surface, self._source(maker), item.selection)
+                worn[key] = shading, len(worn) + 1
+            drawables.append(
+                Drawable(
+                    mesh,
+                    worn[key][0],
+                    item.world_from_object,
+                    worn[key][1],
+                    item.thing,
+                    item.node.casts_shadows,
+                )
+            )
         endless = any(mesh.tile is not None for mesh in kept)
         bounded = any(mesh.tile is None for mesh in kept)
         vertices = (
@@ -230,17 +257,27 @@ def _nodes(nodes: list[Node], world_from_parent: Matrix) -> Iterator[tuple[Node,
         yield from _nodes(node.children, matrix)
 
 
-def _parts(
-    mesh: ModelMesh, surface: SurfaceSpec | None, model: Model, matrix: Matrix
-) -> Iterator[_Placed]:
+def _selected(item: _Placed) -> list[_Placed]:
+    """Return a thing once for each of its surfaces."""
+    among = item.node.surface_map
+    if among is None:
+        return [item]
+    return [
+        replace(item, surface=surface, selection=Selection(among, number))
+        for number, surface in enumerate(among.surfaces)
+    ]
+
+
+def _parts(node: Node, mesh: ModelMesh, model: Model, matrix: Matrix) -> Iterator[_Placed]:
     # Keys of parts are a model's own, and one file is another model for each set and scene.
     own = f"{mesh.asset} {sorted(mesh.files.items())} {mesh.scene}"
     for part, worn in seen_parts(mesh, model):
         yield _Placed(
             key=f"{own} {part.key}",
             mesh=partial(_mesh_of, part),
-            surface=surface or worn or _MATT_GREY,
+            surface=node.surface or worn or _MATT_GREY,
             world_from_object=matrix @ part.matrix,
+            node=node,
         )
 
 

@@ -14,12 +14,13 @@ from api_schemas.families import Meaning, SurfaceSpec, TextureSpec
 from api_schemas.language import FAMILIES
 from api_schemas.maps import ColorMap, NumberMap
 from api_schemas.relief import AnyMap
+from api_schemas.surface_maps import SurfaceMap
 from worker.errors import RenderError
 from worker.images.pyramids import Cut
 from worker.images.relief import Preparation, Unpacked
 from worker.rendering import relief_shading
 from worker.rendering.calls import choice
-from worker.rendering.chunks import chunk
+from worker.rendering.chunks import chunk, join
 from worker.rendering.lookups import Lookups, Picture, TextureSource
 from worker.rendering.samplers import Sampling
 from worker.rendering.shading_layout import Parameter, PictureLayout, ReliefLayout, ShadingLayout
@@ -41,6 +42,21 @@ class Shading:
     double_sided: bool
 
 
+@dataclass(frozen=True, slots=True)
+class Selection:
+    """Which of the surfaces of a map is drawn."""
+
+    among: SurfaceMap
+    number: int
+
+
+@functools.cache
+def is_lit(technique: str) -> bool:
+    """Tell whether a surface asks for the lights: others need no program for their shadows."""
+    name = f"surfaces/{technique}.glsl"
+    return "lib/lights.glsl" in join(chunk(name), name).chunks
+
+
 @functools.cache
 def surface_fields(technique: str) -> dict[str, str]:
     """Return name and GLSL type of each field in the technique's struct Surface.
@@ -57,8 +73,13 @@ def surface_fields(technique: str) -> dict[str, str]:
     return {field["name"]: field["type"] for field in _FIELD.finditer(struct["fields"])}
 
 
-def shade(surface: SurfaceSpec, texture_of: TextureSource) -> Shading:
-    """Lay out a surface's parameters: plain values as uniforms, maps as lookups in pictures."""
+def shade(
+    surface: SurfaceSpec, texture_of: TextureSource, selection: Selection | None = None
+) -> Shading:
+    """Lay out a surface's parameters: plain values as uniforms, maps as lookups in pictures.
+
+    With a selection it is drawn only where that says.
+    """
     plan = _Plan(texture_of)
     surface = surface.filled()
     parameters = tuple(
@@ -67,6 +88,11 @@ def shade(surface: SurfaceSpec, texture_of: TextureSource) -> Shading:
     )
     opacity = plan.opacity(surface)
     relief = plan.relief(surface)
+    light_map = selected = None
+    if surface.light_map is not None and is_lit(surface.technique):
+        light_map = plan.parameter(surface, "light_map", "vec3")
+    if selection is not None:
+        selected = plan.selection(selection)
     tables = surface_tables(surface.technique)
     pictures = (*plan.lookups.pictures, *(_table(spec, texture_of) for spec in tables.values()))
     layout = ShadingLayout(
@@ -75,6 +101,8 @@ def shade(surface: SurfaceSpec, texture_of: TextureSource) -> Shading:
         alpha_mode=surface.alpha_mode,
         opacity=opacity,
         relief=relief,
+        light_map=light_map,
+        selection=selected,
         lookups=plan.lookups.layouts,
         pictures=tuple(
             PictureLayout(picture.sampling, picture.texture.format) for picture in pictures
@@ -116,9 +144,14 @@ class _Plan:
         self, surface: SurfaceSpec, name: str, kind: str, cut: Cut | None = None
     ) -> Parameter:
         value = getattr(surface, name)
-        if not isinstance(value, ColorMap | NumberMap):
-            self.uniforms[name + "_value"] = _plain(surface, name, kind, value)
-            return Parameter(name, kind, None)
+        if isinstance(value, ColorMap | NumberMap):
+            return self.mapped(value, name, kind, cut)
+        self.uniforms[name + "_value"] = _plain(surface, name, kind, value)
+        return Parameter(name, kind, None)
+
+    def mapped(
+        self, value: ColorMap | NumberMap, name: str, kind: str, cut: Cut | None = None
+    ) -> Parameter:
         self.uniforms[name + "_bias"] = value.bias
         if isinstance(value, NumberMap):
             self.uniforms[name + "_scale"] = value.scale
@@ -128,6 +161,12 @@ class _Plan:
         packed = isinstance(value, NumberMap) and value.channel == "packed"
         preparation = Unpacked() if packed else None
         return Parameter(name, kind, self.lookups.add(value, _MEANINGS[kind], cut, preparation))
+
+    def selection(self, selection: Selection) -> Parameter:
+        """Lay out the map that says where the surface is."""
+        self.uniforms["selected"] = selection.number
+        self.uniforms["selected_last"] = len(selection.among.surfaces) - 1
+        return self.mapped(selection.among, "selection", "float")
 
     def opacity(self, surface: SurfaceSpec) -> Parameter | None:
         """Lay out the opacity, unless it is ignored."""

@@ -110,6 +110,8 @@ class ShadingLayout:
         alpha_mode: Whether opacity is ignored, cuts holes, or lets through what is behind.
         opacity: How it is read, unless it is ignored.
         relief: What moves and tilts the point.
+        light_map: How baked light is read, if there is any.
+        selection: How the number is read that says which surface is where, if there are several.
         lookups: Readings of pictures.
         pictures: Texture units of maps, then of tables.
         tables: What the surface's own tables are called.
@@ -120,9 +122,16 @@ class ShadingLayout:
     alpha_mode: AlphaMode
     opacity: Parameter | None
     relief: ReliefLayout
+    light_map: Parameter | None
+    selection: Parameter | None
     lookups: tuple[LookupLayout, ...]
     pictures: tuple[PictureLayout, ...]
     tables: tuple[str, ...]
+
+    @property
+    def has_holes(self) -> bool:
+        """Whether not all of the mesh may be there."""
+        return self.alpha_mode != "opaque" or self.selection is not None
 
     @property
     def samplers(self) -> tuple[str, ...]:

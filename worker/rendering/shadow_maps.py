@@ -98,15 +98,15 @@ class ShadowMaps(pyrender.Renderer):  # type: ignore[misc]
         return None, None
 
     def _sorted_mesh_nodes(self, scene: FlatScene) -> list[PlacedNode]:
-        return scene.in_order
+        return scene.casters
 
     def _get_primitive_program(
         self, primitive: SurfacePrimitive, flags: int, program_flags: int
     ) -> Program:
         layout = primitive.material.shading.layout
-        if layout.alpha_mode == "opaque":
-            return self._programs.get("solid", _solid_sources)
-        return self._programs.get(layout, lambda: hole_sources(layout))
+        if layout.has_holes:
+            return self._programs.get(layout, lambda: hole_sources(layout))
+        return self._programs.get("solid", _solid_sources)
 
     def _bind_and_draw_primitive(
         self, primitive: SurfacePrimitive, pose: Matrix, program: Program, flags: int
@@ -115,7 +115,7 @@ class ShadowMaps(pyrender.Renderer):  # type: ignore[misc]
         if primitive.mesh.tile is not None:
             return  # what has no end would keep all light away
         program.set("clip_from_object", self._pass.clip_from_object[primitive.number])
-        if primitive.material.shading.layout.alpha_mode != "opaque":
+        if primitive.material.shading.layout.has_holes:
             self._pass.scene.place(program, primitive)
             self._units.bind(program, primitive.material.shading, partly=True)
         primitive.mesh.bind()

@@ -6,6 +6,12 @@ uniform vec4 light_position[32];  // from the eye, w = 1; or the direction towar
 uniform vec4 light_color[32];     // irradiance or radiant intensity; a = offset of the cone's edge
 uniform vec4 light_axis[32];      // where the cone points; w = slope of the cone's edge
 uniform vec3 ambient_radiance;
+vec3 baked_radiance = vec3(0.0);  // of a light map, where the surface has one
+
+// Light that arrives from everywhere alike.
+vec3 light_all_around() {
+    return ambient_radiance + baked_radiance;
+}
 
 // What part of a light's colours comes through to a point; each program brings its own.
 vec3 let_through(int light, SurfacePoint point);

@@ -27,7 +27,7 @@ vec4 shade(SurfacePoint point, Surface surface) {
     float strength = sqrt((exponent.x + 1.0) * (exponent.y + 1.0)) / (8.0 * PI);
     float seen = max(dot(point.normal, point.view), 1e-4);
     float matt_seen = 1.0 - schlick(0.5 * seen);
-    vec3 radiance = surface.emission + (matt + gloss) * ambient_radiance;
+    vec3 radiance = surface.emission + (matt + gloss) * light_all_around();
     for (int i = 0; i < light_count; i++) {
         Light light = light_at(i, point);
         float facing = dot(point.normal, light.direction);

@@ -25,7 +25,7 @@ vec4 shade(SurfacePoint point, Surface surface) {
         + kept.y * dot(axes.across, point.view) * axes.across
         + dot(point.normal, point.view) * point.normal;
     float exponent = max(surface.exponent, 0.0);
-    vec3 radiance = surface.emission + matt * ambient_radiance;
+    vec3 radiance = surface.emission + matt * light_all_around();
     for (int i = 0; i < light_count; i++) {
         Light light = light_at(i, point);
         float facing = dot(point.normal, light.direction);

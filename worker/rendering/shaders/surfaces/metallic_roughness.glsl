@@ -82,7 +82,7 @@ vec4 shade(SurfacePoint point, Surface surface) {
     float coat = clamp(surface.clearcoat, 0.0, 1.0)
         * (COAT_F0 + (1.0 - COAT_F0) * schlick(coat_seen));
 
-    vec3 all_around = surface.occlusion * ambient_radiance;
+    vec3 all_around = surface.occlusion * light_all_around();
     vec3 below_all = matt * (1.0 - largest(reflected_of_all(brighter, table)));
     vec3 radiance = surface.emission + all_around * (below_all + reflected_of_all(both, table));
     vec3 on_coat = all_around * reflectance(coat_seen, surface.clearcoat_roughness).b;

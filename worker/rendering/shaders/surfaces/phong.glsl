@@ -30,7 +30,7 @@ vec4 shade(SurfacePoint point, Surface surface) {
         gloss *= (exponent + 2.0) / (2.0 * PI);
     }
     precise vec3 ambient = surface.ambient_weight * surface.ambient_color * point.color.rgb;
-    precise vec3 radiance = surface.emission + ambient * ambient_radiance;
+    precise vec3 radiance = surface.emission + ambient * light_all_around();
     for (int i = 0; i < light_count; i++) {
         Light light = light_at(i, point);
         float facing = dot(point.normal, light.direction);

@@ -24,7 +24,7 @@ vec4 shade(SurfacePoint point, Surface surface) {
     Scratches axes = scratches(point, surface.angle);
     vec2 slope = max(vec2(surface.roughness_along, surface.roughness_across), SMOOTHEST);
     float seen = max(dot(point.normal, point.view), 1e-4);
-    vec3 radiance = surface.emission + (matt + gloss) * ambient_radiance;
+    vec3 radiance = surface.emission + (matt + gloss) * light_all_around();
     for (int i = 0; i < light_count; i++) {
         Light light = light_at(i, point);
         float facing = dot(point.normal, light.direction);
