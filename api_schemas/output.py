@@ -15,6 +15,7 @@ Format = Literal["png", "exr"]
 MediaType = Literal["image/png", "image/x-exr"]
 PngBits = Literal[8, 16]
 ExrType = Literal["half", "float"]
+PixelFilter = Literal["box", "tent", "gaussian"]
 ToneCurve = Literal["none", "reinhard", "aces"]
 
 Layer = Literal[
@@ -84,6 +85,12 @@ class RenderOutput(Output):
 
     supersampling: Annotated[int, Field(ge=1, le=8), WHOLE] = Field(
         default=2, description="Samples per pixel along each side: more are smoother and slower."
+    )
+    pixel_filter: PixelFilter = Field(
+        default="box",
+        description="How the samples round a pixel become its light: the mean of its own, a tent "
+        "that falls to the middles of its neighbours, or a Gaussian three pixels wide. The latter "
+        "two are smoother and cost samples beyond the edges of the picture.",
     )
     layers: Annotated[list[Layer], Field(max_length=12), UNIQUE_ITEMS] = Field(
         default=[],

@@ -32,6 +32,7 @@ _SECONDS_PER_PNG_PIXEL = {8: 6e-8, 16: 1.4e-7}
 _SECONDS_PER_EXR_PIXEL = {"half": 7e-8, "float": 1.2e-7}
 _SECONDS_PER_LAYER_NUMBER = 5e-8
 _SECONDS_PER_SAMPLE = 4e-8
+_SECONDS_PER_FILTERED_SAMPLE = 9e-8
 _SECONDS_PER_LAYERED_SAMPLE = 1.4e-7
 _SECONDS_PER_LAYERED_PIXEL = 2e-7
 _BYTES_PER_PIXEL = 48
@@ -64,18 +65,20 @@ def sampling(output: RenderOutput) -> Cost:
     """Return the cost of a picture's samples where nothing is, and of making pixels of them."""
     samples = samples_of(output)
     held = min(samples, _samples_per_tile(output))
+    filtering = 0.0 if output.pixel_filter == "box" else samples * _SECONDS_PER_FILTERED_SAMPLE
     if not output.layers:
-        return Cost(samples * _SECONDS_PER_SAMPLE, float(held * _BYTES_PER_SAMPLE))
+        return Cost(samples * _SECONDS_PER_SAMPLE + filtering, float(held * _BYTES_PER_SAMPLE))
     pixels = output.size[0] * output.size[1]
     return Cost(
-        samples * _SECONDS_PER_LAYERED_SAMPLE + pixels * _SECONDS_PER_LAYERED_PIXEL,
+        samples * _SECONDS_PER_LAYERED_SAMPLE + pixels * _SECONDS_PER_LAYERED_PIXEL + 2 * filtering,
         float(held * _BYTES_PER_LAYERED_SAMPLE),
     )
 
 
 def samples_of(output: RenderOutput) -> int:
-    """Return how many samples are drawn."""
-    return output.size[0] * output.size[1] * output.supersampling**2
+    """Return how many samples are drawn, those beyond the picture's edges included."""
+    more = 0 if output.pixel_filter == "box" else 2
+    return (output.size[0] + more) * (output.size[1] + more) * output.supersampling**2
 
 
 def tiles_of(output: RenderOutput) -> int:

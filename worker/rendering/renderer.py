@@ -22,6 +22,7 @@ from worker.models.model import Model
 from worker.rendering.gl_context import GLContext, check
 from worker.rendering.lighting import Lighting, lighting
 from worker.rendering.packing import PICTURE, PLACES
+from worker.rendering.pixel_filters import apron
 from worker.rendering.pyrender_adapter import FloatRenderer
 from worker.rendering.pyrender_scene import FlatScene
 from worker.rendering.scene_builder import ModelReader, SceneBuilder, TextureMaker
@@ -34,6 +35,7 @@ from worker.rendering.tiles import (
     bands,
     tile_from_picture,
     tile_size,
+    widened,
 )
 from worker.stages import Report
 
@@ -138,8 +140,11 @@ def _bands(
     supersampling = output.supersampling
     layered = bool(output.layers)
     most = LAYERED_SAMPLES_MAX if layered else SAMPLES_MAX
-    size = tile_size(width, height, supersampling, most)
-    target = engine.targets.fit(*size, supersampling, layered=layered)
+    around = apron(output.pixel_filter)
+    size = tile_size(width, height, supersampling, most, around)
+    target = engine.targets.fit(
+        *size, supersampling, layered=layered, pixel_filter=output.pixel_filter
+    )
     jit_before = engine.renderer.jit_seconds
     start = time.perf_counter()
     engine.renderer.draw_shadows(scene, lights)
@@ -150,15 +155,19 @@ def _bands(
         band = _Band.empty(output.layers, tiles[0].height, width)
         for tile in tiles:
             report((above + tile.height * tile.left / width) / height, "draw")
+            seen = widened(tile, around)
             engine.renderer.draw(
                 scene,
                 lights,
                 target,
-                tile_from_picture(tile, width, height),
-                (tile.width * supersampling, tile.height * supersampling),
+                tile_from_picture(seen, width, height),
+                (seen.width * supersampling, seen.height * supersampling),
                 supersampling,
             )
-            band.read(engine.targets.resolve(tile.width, tile.height, supersampling), tile)
+            resolved = engine.targets.resolve(
+                tile.width, tile.height, supersampling, output.pixel_filter
+            )
+            band.read(resolved, tile)
         check("resolving samples")
         spent += time.perf_counter() - start
         yield band.images()

@@ -3,6 +3,7 @@
 uniform sampler2D samples_0, samples_1, samples_2, samples_3, samples_4, samples_5, samples_6,
     samples_7;
 uniform int samples_per_side;
+uniform int apron;  // pixels more on every side
 layout(location = 0) out vec4 picture;
 layout(location = 1) out vec4 albedo;
 layout(location = 2) out vec4 normal_and_depth;
@@ -18,7 +19,7 @@ const float FARTHEST = 3.4e38;  // what is drawn is nearer
 // Light is the mean of a pixel's samples, row by row. The mean of two things is none of them: what
 // is known of a thing is that of the nearest sample that shows one, the first of equally near ones.
 void main() {
-    ivec2 corner = ivec2(gl_FragCoord.xy) * samples_per_side;
+    ivec2 corner = (ivec2(gl_FragCoord.xy) + apron) * samples_per_side;
     vec4 light = vec4(0.0), reflected = vec4(0.0);
     ivec2 nearest = corner;
     float depth = FARTHEST;
