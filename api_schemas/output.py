@@ -31,6 +31,7 @@ Layer = Literal[
     "coverage",
     "footprint",
     "texel_density",
+    "shading_difference",
 ]
 
 LayerName = Annotated[str, Field(pattern="^[a-z][a-z0-9_]{0,31}$")]
@@ -92,7 +93,7 @@ class RenderOutput(Output):
         "that falls to the middles of its neighbours, or a Gaussian three pixels wide. The latter "
         "two are smoother and cost samples beyond the edges of the picture.",
     )
-    layers: Annotated[list[Layer], Field(max_length=12), UNIQUE_ITEMS] = Field(
+    layers: Annotated[list[Layer], Field(max_length=13), UNIQUE_ITEMS] = Field(
         default=[],
         json_schema_extra={"uniqueItems": True},
         description="What is told of each pixel besides its colour. An EXR holds all that are "
@@ -105,12 +106,15 @@ class RenderOutput(Output):
         "cover; footprint, how far uv go from this pixel to the next one, X and Y to the right, Z "
         "and W upwards: of waves, a pixel holds those of fewer than 1 / (2 footprint) cycles per "
         "tile; texel_density, how many texels of the surface's main picture fit along a pixel, 0 "
-        "without one: below 1 the picture is magnified, from 2 on it is as sharp as can be. All "
-        "but albedo and coverage belong to the nearest sample, are never averaged and 0 where "
+        "without one: below 1 the picture is magnified, from 2 on it is as sharp as can be; "
+        "shading_difference, the light of the picture, whose samples are shaded and then averaged, "
+        "less that of maps averaged over the pixel and then shaded once: what a filter cannot know "
+        "of highlights and bumps, and edges. All but these and "
+        "albedo and coverage belong to the nearest sample, are never averaged and 0 where "
         "nothing is; what is blended leaves them to what is behind it. A PNG shows one layer "
         "instead of the colour: albedo like a picture, directions as n / 2 + 1/2, depth as "
         "1 / (1 + Z), uv as red and green, an id as its own code, footprint as "
         "1 + log2(x) / 16 of its lengths to the right and upwards, texel_density as x / (1 + x), "
-        "position and coverage as they "
+        "shading_difference as d / 2 + 1/2, position and coverage as they "
         "are, cut off outside of 0..1.",
     )

@@ -25,6 +25,7 @@ LAYER_CHANNELS: Mapping[Layer, int] = {
     "coverage": 1,
     "footprint": 4,
     "texel_density": 1,
+    "shading_difference": 3,
 }
 
 _SECONDS_TO_START = 0.01
@@ -78,7 +79,8 @@ def sampling(output: RenderOutput) -> Cost:
 def samples_of(output: RenderOutput) -> int:
     """Return how many samples are drawn, those beyond the picture's edges included."""
     more = 0 if output.pixel_filter == "box" else 2
-    return (output.size[0] + more) * (output.size[1] + more) * output.supersampling**2
+    once = output.size[0] * output.size[1] * ("shading_difference" in output.layers)
+    return once + (output.size[0] + more) * (output.size[1] + more) * output.supersampling**2
 
 
 def tiles_of(output: RenderOutput) -> int:

@@ -11,7 +11,7 @@ from api_schemas.output import MEDIA_TYPES, Output, PngBits
 from api_schemas.version import VERSION
 from worker.images import image_io
 from worker.images.image import Image
-from worker.rendering.packing import PICTURE
+from worker.rendering.packing import PICTURE, SHADING_DIFFERENCE
 
 _EXR_NAMES = {
     PICTURE: "",
@@ -71,12 +71,15 @@ def write(bands: Iterable[Mapping[str, Image]], output: Output, digest: str, pat
 def _shown(band: Mapping[str, Image], bits: PngBits) -> Image:
     """Return what a PNG shows: the picture, or the layer beside it in numbers from 0 to 1.
 
-    Directions are n / 2 + 1/2. Depth is 1 / (1 + Z): bright near the eye, black where nothing is.
-    An id is its own code. uv are red and green. Footprints are the logarithms of their lengths:
-    16 octaves from black. Densities are x / (1 + x). What else lies outside of 0..1 is cut off.
+    Directions and differences are x / 2 + 1/2. Depth is 1 / (1 + Z): bright near the eye, black
+    where nothing is. An id is its own code. uv are red and green. Footprints are the logarithms of
+    their lengths: 16 octaves from black. Densities are x / (1 + x). What else lies outside
+    of 0..1 is cut off.
     """
     name, image = list(band.items())[-1]
     pixels = image.pixels
+    if name == SHADING_DIFFERENCE:
+        return Image(pixels * np.float32(0.5) + np.float32(0.5), "data")
     if name in ("normal", "geometric_normal", "tangent"):
         pixels = pixels * np.float32(0.5) + np.float32(0.5)
     elif name == "depth":

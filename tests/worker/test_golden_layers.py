@@ -23,6 +23,7 @@ CHANNELS = {
     "coverage": ["coverage"],
     "footprint": [f"footprint.{letter}" for letter in "XYZW"],
     "texel_density": ["texel_density"],
+    "shading_difference": [f"shading_difference.{letter}" for letter in "RGB"],
 }
 
 
@@ -41,6 +42,6 @@ def test_a_layer_looks_as_it_did(
     layer: str, channels: dict[str, Any], compare_with_golden: Any
 ) -> None:
     pixels = np.stack([channels[name] for name in CHANNELS[layer]], axis=2)
-    meaning = "colour" if layer == "albedo" else "data"
+    meaning = "colour" if layer in ("albedo", "shading_difference") else "data"
 
     compare_with_golden(Image(pixels, meaning), f"layers/{layer}")  # type: ignore[arg-type]

@@ -30,6 +30,9 @@ class Place:
         return self.end - self.start
 
 
+SHADING_DIFFERENCE = "shading_difference"
+"""The picture, less what one sample for each pixel makes of it."""
+
 PLACES: Mapping[str, Place] = {
     PICTURE: Place(0, 0, 4, "colour"),
     "albedo": Place(1, 0, 4, "colour"),
@@ -44,4 +47,5 @@ PLACES: Mapping[str, Place] = {
     "uv": Place(6, 0, 2),
     "texel_density": Place(6, 2, 3),
     "footprint": Place(7, 0, 4),
+    SHADING_DIFFERENCE: Place(0, 0, 3, "colour"),
 }

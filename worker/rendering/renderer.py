@@ -21,7 +21,7 @@ from worker.images.image import Image
 from worker.models.model import Model
 from worker.rendering.gl_context import GLContext, check
 from worker.rendering.lighting import Lighting, lighting
-from worker.rendering.packing import PICTURE, PLACES
+from worker.rendering.packing import PICTURE, PLACES, SHADING_DIFFERENCE
 from worker.rendering.pixel_filters import apron
 from worker.rendering.pyrender_adapter import FloatRenderer
 from worker.rendering.pyrender_scene import FlatScene
@@ -168,6 +168,11 @@ def _bands(
                 tile.width, tile.height, supersampling, output.pixel_filter
             )
             band.read(resolved, tile)
+            if SHADING_DIFFERENCE in output.layers:
+                place = tile_from_picture(tile, width, height)
+                pixels = (tile.width, tile.height)
+                engine.renderer.draw(scene, lights, target, place, pixels, supersampling=1)
+                band.subtract(target, tile)
         check("resolving samples")
         spent += time.perf_counter() - start
         yield band.images()
@@ -201,6 +206,12 @@ class _Band:
                 place = PLACES[name]
                 if place.attachment == attachment:
                     pixels[:, columns] = numbers[..., place.start : place.end]
+
+    def subtract(self, samples: Target, tile: Tile) -> None:
+        """Take a picture of one sample for each pixel away from the difference."""
+        columns = slice(tile.left, tile.left + tile.width)
+        picture = samples.read(0, tile.width, tile.height)
+        self.pixels[SHADING_DIFFERENCE][:, columns] -= picture[..., :3]
 
     def images(self) -> Band:
         return {name: Image(pixels, PLACES[name].meaning) for name, pixels in self.pixels.items()}
