@@ -4,10 +4,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Final
 
 from api_schemas.assets import AssetFacts, ImageFacts, MaterialLibraryFacts, ModelFacts
+from api_schemas.base import Schema
 from api_schemas.camera import ModelCamera
-from api_schemas.feasibility import Obstacle
+from api_schemas.families import LayoutSpec
 from api_schemas.maps import TABLE_FILTERS, TABLE_SIDE_MAX, Map
 from api_schemas.model_mesh import ModelMesh
+from api_schemas.obstacle import Obstacle
 from api_schemas.requests import RenderRequest, Request
 from api_schemas.textures.image import ImageSpec
 from api_schemas.walk import escaped, parts
@@ -43,8 +45,24 @@ def misuses(request: Request, facts: Mapping[str, AssetFacts]) -> Iterator[Obsta
             yield from _model(part, facts, pointer)
         elif isinstance(part, Map):
             yield from _table(part, facts, pointer)
+        yield from _shape(part, facts, pointer)
     if isinstance(request, RenderRequest):
         yield from _camera(request, facts)
+
+
+def _shape(part: Schema, facts: Mapping[str, AssetFacts], pointer: str) -> Iterator[Obstacle]:
+    """Tell of a picture of all directions that has not the shape its layout has."""
+    for name in ("texture", "environment"):
+        layout, picture = getattr(part, "layout", None), getattr(part, name, None)
+        if not isinstance(layout, LayoutSpec) or not isinstance(picture, ImageSpec):
+            continue
+        found, (width, height) = facts.get(picture.asset), layout.proportion
+        if isinstance(found, ImageFacts) and found.width * height != found.height * width:
+            message = (
+                f"{layout.technique} needs {width} to {height}; "
+                f"the picture is {found.width} x {found.height}"
+            )
+            yield Obstacle("layout_mismatch", f"{pointer}/{name}/asset", message)
 
 
 def needed(mesh: ModelMesh, facts: Mapping[str, AssetFacts]) -> dict[str, tuple[str, ...]]:

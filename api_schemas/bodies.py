@@ -2,16 +2,19 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from api_schemas.assets import AssetFacts, ImageFacts, ModelFacts
 from api_schemas.cost import Cost
 from api_schemas.geometry import Vector3
 from api_schemas.meshes import Mesh
 from api_schemas.model_mesh import ModelMesh
+from api_schemas.relief import Displacement
 
 SECONDS_PER_TRIANGLE = 4e-7
 BYTES_PER_TRIANGLE = 200
+SECONDS_PER_DISPLACED_TRIANGLE = 8e-6
+BYTES_PER_DISPLACED_TRIANGLE = 900
 SECONDS_PER_READ_VERTEX = 1e-6
 BYTES_PER_READ_VERTEX = 250
 SECONDS_PER_TEXEL = 1e-7
@@ -96,4 +99,22 @@ def body(mesh: Mesh, facts: Mapping[str, AssetFacts]) -> Body | None:
             low[2] / 2 + high[2] / 2,
         ),
         reach=math.dist(low, high) / 2,
+    )
+
+
+def displaced(found: Body, spec: Displacement | None) -> Body:
+    """Return what a mesh becomes by a displacement, whose values are taken to be from 0 to 1."""
+    if spec is None:
+        return found
+    pieces = spec.triangles(found.pieces)
+    work = Cost(
+        pieces * SECONDS_PER_DISPLACED_TRIANGLE, float(pieces * BYTES_PER_DISPLACED_TRIANGLE)
+    )
+    moved = abs(spec.depth) * max(abs(spec.middle), abs(1 - spec.middle))
+    return replace(
+        found,
+        key=f"{found.key} {spec.model_dump_json()}",
+        making=found.making + work,
+        pieces=pieces,
+        reach=found.reach + moved,
     )

@@ -25,8 +25,8 @@ _CHECKERBOARD = 8.0
 """What the five-point Laplacian takes from a checkerboard, the wave that it damps most."""
 
 
-class DishSpec(TextureSpec):
-    """A dish: how large, how long, what it starts from and what is at its rim."""
+class CellsSpec(TextureSpec):
+    """Grid cells that change step by step: how many, how long, and what is at their rim."""
 
     meaning: ClassVar[Meaning] = "data"
     sized: ClassVar[bool] = True
@@ -48,6 +48,28 @@ class DishSpec(TextureSpec):
         description="What is beyond the edges: the opposite edge, which makes a seamless tile, a "
         "wall, or the dish at rest for ever.",
     )
+    still_below: Annotated[float, Field(ge=0, le=1)] = Field(
+        default=0.0,
+        description="Stop before the last step once no cell changes faster than this, per unit "
+        "of time; 0 never does.",
+    )
+
+    def inner_size(self, size: tuple[int, int]) -> tuple[int, int]:
+        """Textures within are made cell by cell."""
+        return self.size[0], self.size[1]
+
+    def cost(self, pixels: int) -> Cost:
+        """Every step passes over every cell of the dish, then it is brought to the size asked."""
+        cells = self.size[0] * self.size[1]
+        chemicals = len(self.layers) or 4
+        seconds = cells * (self.steps + 10) * self.seconds_per_cell + self.steps * 4e-5
+        numbers = 2 * chemicals + len(self.parameters) + 2
+        return Cost(seconds + pixels * chemicals * 2e-8, cells * numbers * 10.0 + pixels * 16.0)
+
+
+class DishSpec(CellsSpec):
+    """A dish of chemicals: what it starts from, too."""
+
     start: Annotated["Texture | None", DATA] = Field(
         default=None,
         description="What to begin from: channels are chemicals in their order, and those that it "
@@ -59,23 +81,6 @@ class DishSpec(TextureSpec):
         "1 fully.",
     )
     seed: Seed = Field(default=0, description="Another number, another pattern of the same kind.")
-    still_below: Annotated[float, Field(ge=0, le=1)] = Field(
-        default=0.0,
-        description="Stop before the last step once no chemical changes faster than this, per "
-        "unit of time; 0 never does.",
-    )
-
-    def inner_size(self, size: tuple[int, int]) -> tuple[int, int]:
-        """Textures within are made cell by cell."""
-        return self.size[0], self.size[1]
-
-    def cost(self, pixels: int) -> Cost:
-        """Every step passes over every cell of the dish, then it is brought to the size asked."""
-        cells = self.size[0] * self.size[1]
-        chemicals = len(self.layers) or 1
-        seconds = cells * (self.steps + 10) * self.seconds_per_cell + self.steps * 4e-5
-        numbers = 2 * chemicals + len(self.parameters) + 2
-        return Cost(seconds + pixels * chemicals * 2e-8, cells * numbers * 10.0 + pixels * 16.0)
 
 
 class ReactionSpec(DishSpec):
@@ -168,7 +173,7 @@ class ReactionSpec(DishSpec):
         return [list(row) for row in zip(*columns, strict=True)]
 
 
-def mapped(spec: DishSpec, name: str) -> ParameterMap | None:
+def mapped(spec: CellsSpec, name: str) -> ParameterMap | None:
     """Return the map that is in the place of a parameter, if one is."""
     value = getattr(spec, name)
     return value if isinstance(value, ParameterMap) else None

@@ -15,6 +15,7 @@ from api_schemas.bodies import (
     SECONDS_PER_TEXEL,
     Body,
     body,
+    displaced,
 )
 from api_schemas.camera import Camera, FramedCamera, ModelCamera, PosedCamera
 from api_schemas.cookies import Cookie
@@ -26,9 +27,10 @@ from api_schemas.light_cost import cookies_of, seconds_of_shadows, shadow_maps
 from api_schemas.lights import LIGHTS_MAX
 from api_schemas.maps import TABLE_FILTERS
 from api_schemas.output_cost import samples_of, sampling, tiles_of, writing
-from api_schemas.relief import AnyMap
+from api_schemas.relief import AnyMap, ParallaxMap
 from api_schemas.requests import RenderRequest, Request
 from api_schemas.scene import Node
+from api_schemas.sky import SKY_SECONDS_PER_SAMPLE, sky_textures
 from api_schemas.textures.image import ImageSpec
 from api_schemas.walk import outermost, parts
 
@@ -42,10 +44,12 @@ SECONDS_PER_MAP_SAMPLE = {
     "ewa": 6e-7,
     "ripmap": 1e-7,
     "summed_area": 5e-7,
+    "formula": 4e-7,
 }
 BYTES_PER_TABLE_TEXEL: Mapping[str, int] = {"ripmap": 64, "summed_area": 32}
 BYTES_TO_SUM_A_TEXEL = 96
 SECONDS_PER_STORED_TEXEL = {"box": 2e-8, "kaiser": 5e-7, "ripmap": 1e-7, "summed_area": 2e-7}
+SECONDS_PER_PARALLAX_STEP = 2e-8
 SECONDS_TO_COMPILE_A_MAP = 0.12
 SECONDS_PER_DRAWN_TRIANGLE = 5e-8
 SECONDS_PER_DRAW = 2e-4
@@ -64,7 +68,15 @@ def estimate(request: Request, facts: Mapping[str, AssetFacts]) -> Cost:
     width, height = request.output.size
     if isinstance(request, RenderRequest):
         return cost + _drawing(request, facts)
+    if request.output.slices:
+        return cost + volume_of(request.texture, width * height * request.output.slices)
     return cost + _textures(request, facts, width * height)
+
+
+def volume_of(texture: TextureSpec, voxels: int) -> Cost:
+    """Return the cost of making a solid texture, with all that are in it."""
+    found = (part for _, part in parts(texture) if isinstance(part, TextureSpec))
+    return sum((part.volume_cost(voxels) for part in found), Cost())
 
 
 def _textures(value: object, facts: Mapping[str, AssetFacts], pixels: int) -> Cost:
@@ -82,7 +94,7 @@ def _textures(value: object, facts: Mapping[str, AssetFacts], pixels: int) -> Co
 def _texels_worn(texture: TextureSpec, facts: Mapping[str, AssetFacts]) -> int:
     """Return how large a texture is on a surface: uploaded pictures stay as large as they are."""
     texels = _texels(texture, facts) if isinstance(texture, ImageSpec) else 0
-    return texels or texture.surface_side**2
+    return texels or math.prod(texture.surface_size)
 
 
 def _texels(picture: ImageSpec, facts: Mapping[str, AssetFacts]) -> int:
@@ -96,7 +108,7 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
     cost = sampling(request.output)
     scene = request.scene
     drawn = [
-        (node, _moved(placed, found.middle), found)
+        (node, _moved(placed, found.middle), displaced(found, node.displacement))
         for node, placed in _placed(scene.nodes, IDENTITY)
         if node.mesh is not None and (found := body(node.mesh, facts)) is not None
     ]
@@ -116,6 +128,12 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
     background = _maps(scene.background)
     cost += textures.cost(background) + textures.cost(cookies)
     cost += Cost(samples * _seconds_per_sample(background))
+    if (environment := scene.environment) is not None:
+        lighting += SKY_SECONDS_PER_SAMPLE
+        cost += Cost(samples * SKY_SECONDS_PER_SAMPLE) + sky_textures(environment).cost()
+        size = math.prod(environment.texture.surface_size)
+        cost += _textures(environment.texture, facts, size)
+        cost += Cost(bytes=_texels_worn(environment.texture, facts) * BYTES_PER_KEPT_TEXEL)
     made = set()
     once = 0.0
     for node, placed, found in drawn:
@@ -129,7 +147,7 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
         shown = node.surface or node.mesh
         surfaces = [part for _, part in parts(shown) if isinstance(part, SurfaceSpec)]
         maps = [_maps(surface) for surface in surfaces]
-        for worn in maps:
+        for worn in [*maps, _maps(node.displacement)]:
             cost += textures.cost(worn)
         own = MAPS_OF_A_MATERIAL * found.pictures * SECONDS_PER_MAP_SAMPLE["anisotropic"]
         shading = lighting + max([own, *map(_seconds_per_sample, maps)])
@@ -151,7 +169,13 @@ def _maps(value: object) -> list[MAPS]:
 
 def _seconds_per_sample(maps: Sequence[MAPS]) -> float:
     """Return the seconds that looking up all of them once takes."""
-    return sum(SECONDS_PER_MAP_SAMPLE[item.filter] for item in maps)
+    return sum(_seconds_per_look(item) for item in maps)
+
+
+def _seconds_per_look(item: MAPS) -> float:
+    if isinstance(item, ParallaxMap):
+        return SECONDS_PER_PARALLAX_STEP * (1 if item.method == "offset" else item.steps)
+    return SECONDS_PER_MAP_SAMPLE[item.filter]
 
 
 def _moved(placed: Affine | None, middle: Vector3) -> Affine | None:
@@ -188,7 +212,9 @@ class _WornTextures:
             picture = f"{type(item).__name__} {item.texture.model_dump_json()}"
             if picture not in self._made:
                 self._made.add(picture)
-                picture_cost = _textures(item.texture, self._facts, item.texture.surface_side**2)
+                picture_cost = _textures(
+                    item.texture, self._facts, math.prod(item.texture.surface_size)
+                )
                 self.making = max(self.making, picture_cost.bytes)
                 cost += Cost(picture_cost.seconds)
             form = item.filter if item.filter in TABLE_FILTERS else getattr(item, "pyramid", "box")

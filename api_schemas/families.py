@@ -15,6 +15,8 @@ from api_schemas.base import Schema
 from api_schemas.cost import Cost
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from api_schemas.language import MappableNonNegative
     from api_schemas.maps import LightMap, NormalMap
     from api_schemas.relief import BumpMap, HeightMap, ParallaxMap, TangentFrames
@@ -64,6 +66,11 @@ class TextureSpec(TechniqueSpec):
     surface_side: ClassVar[int] = 1024
     """Pixels along each side of its picture, where a surface wears it."""
 
+    @property
+    def surface_size(self) -> tuple[int, int]:
+        """Width and height of its picture, where a surface wears it."""
+        return (self.surface_side, self.surface_side)
+
     def inner_size(self, size: tuple[int, int]) -> tuple[int, int]:
         """Return the size that textures within are made at, where this one is made at `size`."""
         return size
@@ -72,6 +79,10 @@ class TextureSpec(TechniqueSpec):
         """Tell what its numbers make impossible, beyond what its schema refuses."""
         yield from ()
 
+    def has_formula(self) -> bool:
+        """Whether it can be worked out at any place; the textures nested in it must be able too."""
+        return False
+
     def cost(self, pixels: int) -> Cost:
         """Estimate this technique at a number of pixels, without the textures nested in it."""
         return Cost(seconds=pixels * 2e-8, bytes=pixels * 32)
@@ -79,6 +90,34 @@ class TextureSpec(TechniqueSpec):
     def volume_cost(self, voxels: int) -> Cost:
         """Estimate the same as a volume, where that does not just cost as much for each voxel."""
         return self.cost(voxels)
+
+
+class PresetSpec(TextureSpec):
+    """A composition of other techniques with a name, and parameters of its own."""
+
+    solid: ClassVar[bool] = True
+    pointwise: ClassVar[bool] = True
+
+    def composed(self) -> TextureSpec:
+        """Return the composition, of solid textures."""
+        raise NotImplementedError
+
+    def cost(self, pixels: int) -> Cost:
+        """Estimate all that it is composed of."""
+        return sum((part.cost(pixels) for part in textures_in(self.composed())), Cost())
+
+    def volume_cost(self, voxels: int) -> Cost:
+        """Estimate all that it is composed of."""
+        return sum((part.volume_cost(voxels) for part in textures_in(self.composed())), Cost())
+
+
+def textures_in(texture: TextureSpec) -> Iterator[TextureSpec]:
+    """Yield a texture and all that are nested in it."""
+    yield texture
+    for name in type(texture).model_fields:
+        value = getattr(texture, name)
+        if isinstance(value, TextureSpec):
+            yield from textures_in(value)
 
 
 class CoordinatesSpec(TechniqueSpec):

@@ -1,19 +1,23 @@
 """Requests that are well-formed and still cannot be drawn: told before any work starts."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 from api_schemas.camera import Camera, FramedCamera, ModelCamera
 from api_schemas.cookies import COOKIES_MAX
+from api_schemas.environment import Environment
 from api_schemas.families import SurfaceSpec, TextureSpec
 from api_schemas.geometry import IDENTITY, Affine, Vector3, affine, cross, length, triple
 from api_schemas.light_cost import cookies_of
 from api_schemas.lights import DirectionalLight, Light, SpotLight
+from api_schemas.map_feasibility import map_obstacles
 from api_schemas.maps import MAPS_MAX, Map
 from api_schemas.model_mesh import ModelMesh
-from api_schemas.output import RenderOutput, TextureOutput
+from api_schemas.obstacle import Obstacle
+from api_schemas.output import SIDE_MAX, RenderOutput, TextureOutput
 from api_schemas.requests import Request, TextureRequest
 from api_schemas.scene import NODES_MAX, Node
+from api_schemas.sky import SKY_MAPS
+from api_schemas.solid import flat_parts
 from api_schemas.textures.image import ImageSpec
 from api_schemas.transforms import MatrixPlacement
 from api_schemas.walk import deepest, escaped, parts
@@ -25,15 +29,6 @@ SMALLEST_SINE = 1e-7
 """Sine of the angle between viewing and up direction below which float32 cannot tell up."""
 
 
-@dataclass(frozen=True, slots=True)
-class Obstacle:
-    """One reason why a valid request cannot be done, and where in the body it lies."""
-
-    code: str
-    pointer: str
-    message: str
-
-
 def obstacles(request: Request) -> list[Obstacle]:
     """Return all that stands in the way, in the order of the body; empty when all is well."""
     found = list(_limits(request))
@@ -41,7 +36,7 @@ def obstacles(request: Request) -> list[Obstacle]:
         return found
     found += _refusals(request)
     if isinstance(request, TextureRequest):
-        return [*found, *_layer_names(request), *_layers(request.output)]
+        return [*found, *_slices(request), *_layer_names(request), *_layers(request.output)]
     found += _camera(request.scene.camera)
     found += _cookies(request.scene.lights or [])
     for index, light in enumerate(request.scene.lights or []):
@@ -71,22 +66,19 @@ def _limits(request: Request) -> Iterator[Obstacle]:
             "nesting_too_deep", place, f"{levels} levels within each other; at most {LEVELS_MAX}"
         )
     textures, nodes = 0, 0
+    surrounded = any(isinstance(part, Environment) for _, part in parts(request))
+    most = MAPS_MAX - SKY_MAPS * surrounded
     for pointer, part in parts(request):
         textures += isinstance(part, TextureSpec)
         nodes += isinstance(part, Node)
         if isinstance(part, SurfaceSpec):
             maps = sum(isinstance(value, Map) for _, value in parts(part))
-            if maps > MAPS_MAX:
+            if maps > most:
                 yield Obstacle(
-                    "too_many_maps", pointer, f"{maps} maps on one surface; at most {MAPS_MAX}"
+                    "too_many_maps", pointer, f"{maps} maps on one surface; at most {most}"
                 )
-        if isinstance(part, Map) and part.layout and part.coordinates.dimensions != 3:
-            yield Obstacle(
-                "layout_without_direction",
-                f"{pointer}/layout",
-                f"{part.coordinates.technique} coordinates are a place on the picture already; "
-                "a layout needs a direction",
-            )
+        if isinstance(part, Map):
+            yield from map_obstacles(part, pointer)
     for count, limit, things in (
         (textures, TEXTURES_MAX, "textures"),
         (nodes, NODES_MAX, "scene nodes"),
@@ -101,6 +93,26 @@ def _refusals(request: Request) -> Iterator[Obstacle]:
             for refusal in part.refusals():
                 place = f"{pointer}/{refusal.field}" if refusal.field else pointer
                 yield Obstacle(refusal.code, place, refusal.message)
+
+
+def _slices(request: TextureRequest) -> Iterator[Obstacle]:
+    output = request.output
+    if output.slices is None:
+        return
+    for place, part in flat_parts(request.texture, "/texture"):
+        yield Obstacle("texture_not_solid", place, f"{part.technique} does not fill space")
+    if output.layers:
+        yield Obstacle("layer_unknown", "/output/layers", "a solid has no layers of its own")
+    if output.arrangement == "layers" and output.format != "exr":
+        yield Obstacle("layers_need_exr", "/output/arrangement", "a PNG holds no slices as layers")
+    if max(output.file_size) > SIDE_MAX:
+        width, height = output.file_size
+        yield Obstacle(
+            "atlas_too_large",
+            "/output/slices",
+            f"the slices beside each other take {width} x {height} pixels; "
+            f"at most {SIDE_MAX} along a side",
+        )
 
 
 def _layer_names(request: TextureRequest) -> Iterator[Obstacle]:

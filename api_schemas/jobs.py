@@ -43,6 +43,9 @@ class JobLinks(Schema):
     self: Link = Field(description="This job.")
     events: Link = Field(description="What happens to the job, as it happens.")
     cancel: Link = Field(description="DELETE this to cancel the job.")
+    preview: Link = Field(
+        description="A small picture of how far it is, where the technique shows one."
+    )
     result: Link = Field(description="The finished file.")
 
 

@@ -17,7 +17,7 @@ from typing_extensions import TypeAliasType
 
 from api_schemas import coordinates, layouts, surfaces, textures
 from api_schemas.base import Color, NonNegative, Number, Schema
-from api_schemas.dishes import DishSpec, ReactionSpec
+from api_schemas.dishes import CellsSpec, DishSpec, ReactionSpec
 from api_schemas.families import (
     CoordinatesSpec,
     LayoutSpec,
@@ -142,7 +142,14 @@ def _complete() -> None:
     members = [spec for family in FAMILIES.values() for spec in family.values()]
     models: list[type[Schema]] = [Map, ScaledMap, ColorMap, LightMap, NumberMap, NormalMap]
     models += [ReliefMap, BumpMap, HeightMap, ParallaxMap, Displacement, SurfaceSpec]
-    models += [ParameterMap, *ParameterMap.__subclasses__(), DishSpec, ReactionSpec, *members]
+    models += [
+        ParameterMap,
+        *ParameterMap.__subclasses__(),
+        CellsSpec,
+        DishSpec,
+        ReactionSpec,
+        *members,
+    ]
     for model in models:
         module = importlib.import_module(model.__module__)
         model.model_rebuild(force=True, _types_namespace={**vars(module), **names})

@@ -16,7 +16,16 @@ if TYPE_CHECKING:
 MAPS_MAX = 24
 """Maps on one surface: with eight to spare, what OpenGL lets a shader read."""
 
-Filter = Literal["nearest", "bilinear", "trilinear", "anisotropic", "ewa", "ripmap", "summed_area"]
+Filter = Literal[
+    "nearest",
+    "bilinear",
+    "trilinear",
+    "anisotropic",
+    "ewa",
+    "ripmap",
+    "summed_area",
+    "formula",
+]
 Pyramid = Literal["box", "kaiser"]
 TableFilter = Literal["ripmap", "summed_area"]
 TABLE_FILTERS: Final[tuple[TableFilter, ...]] = get_args(TableFilter)
@@ -83,7 +92,9 @@ class Map(Schema):
         "elliptical Gaussian, even and slow (ewa); or the mean of the upright rectangle round the "
         "pixel, from pictures shrunk along u and v each on their own (ripmap), or from sums, "
         "exactly (summed_area). A picture for the last two has at most 8180 texels a side, 4090 "
-        "along a v that summed_area mirrors.",
+        "along a v that summed_area mirrors. formula makes no picture: a texture that has a "
+        "formula is worked out at every pixel, repeated in all directions, with detail without "
+        "end.",
     )
     pyramid: Pyramid = Field(
         default="box",

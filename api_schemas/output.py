@@ -1,5 +1,6 @@
 """What the finished picture looks like as a file."""
 
+import math
 from collections.abc import Mapping
 from typing import Annotated, Literal
 
@@ -32,6 +33,7 @@ Layer = Literal[
     "footprint",
     "texel_density",
     "shading_difference",
+    "light_visibility",
 ]
 
 LayerName = Annotated[str, Field(pattern="^[a-z][a-z0-9_]{0,31}$")]
@@ -68,6 +70,11 @@ class Output(Schema):
         "softly, or like film.",
     )
 
+    @property
+    def file_size(self) -> tuple[int, int]:
+        """Width and height of the file."""
+        return self.size[0], self.size[1]
+
 
 class TextureOutput(Output):
     """The same, for textures."""
@@ -79,6 +86,31 @@ class TextureOutput(Output):
         "its own layers, by name. An EXR holds all that are named, as channels; a PNG shows one "
         "layer instead of the picture.",
     )
+    slices: Annotated[int, Field(ge=1, le=1024), WHOLE] | None = Field(
+        default=None,
+        description="Makes a solid texture as a volume of so many slices, the first one at w = 0; "
+        "size is that of a slice.",
+    )
+    arrangement: Literal["atlas", "layers"] = Field(
+        default="atlas",
+        description="Where slices go: beside each other into one picture, in rows from the upper "
+        "left, as nearly square as can be, what is left over 0; or into an EXR as layers "
+        "slice_0000, slice_0001 and so on, beside the first one as the picture.",
+    )
+
+    @property
+    def columns(self) -> int:
+        """Slices in a row of the file."""
+        slices = self.slices if self.slices and self.arrangement == "atlas" else 1
+        width, height = self.size
+        return max(1, min(slices, round(math.sqrt(slices * height / width))))
+
+    @property
+    def file_size(self) -> tuple[int, int]:
+        """Width and height of the file: of all slices, where they lie beside each other."""
+        slices = self.slices if self.slices and self.arrangement == "atlas" else 1
+        rows = math.ceil(slices / self.columns)
+        return self.size[0] * self.columns, self.size[1] * rows
 
 
 class RenderOutput(Output):
@@ -93,7 +125,7 @@ class RenderOutput(Output):
         "that falls to the middles of its neighbours, or a Gaussian three pixels wide. The latter "
         "two are smoother and cost samples beyond the edges of the picture.",
     )
-    layers: Annotated[list[Layer], Field(max_length=13), UNIQUE_ITEMS] = Field(
+    layers: Annotated[list[Layer], Field(max_length=16), UNIQUE_ITEMS] = Field(
         default=[],
         json_schema_extra={"uniqueItems": True},
         description="What is told of each pixel besides its colour. An EXR holds all that are "
@@ -103,15 +135,16 @@ class RenderOutput(Output):
         "the color of an unlit, diffuse or base, premultiplied, like light the mean of all "
         "samples; object_id, from 1 in the order of drawing, depth first; material_id, from 1 in "
         "the same order, equal surfaces together; coverage, the share of the pixel that things "
-        "cover; footprint, how far uv go from this pixel to the next one, X and Y to the right, Z "
-        "and W upwards: of waves, a pixel holds those of fewer than 1 / (2 footprint) cycles per "
-        "tile; texel_density, how many texels of the surface's main picture fit along a pixel, 0 "
-        "without one: below 1 the picture is magnified, from 2 on it is as sharp as can be; "
-        "shading_difference, the light of the picture, whose samples are shaded and then averaged, "
-        "less that of maps averaged over the pixel and then shaded once: what a filter cannot know "
-        "of highlights and bumps, and edges. All but these and "
-        "albedo and coverage belong to the nearest sample, are never averaged and 0 where "
-        "nothing is; what is blended leaves them to what is behind it. A PNG shows one layer "
+        "cover; light_visibility, the share of the lamps' light that shadows leave, 0 where a "
+        "surface faces away; footprint, how far uv go from this pixel to the next one, X and Y to "
+        "the right, Z and W upwards: of waves, a pixel holds those of fewer than 1 / (2 footprint) "
+        "cycles per tile; texel_density, how many texels of the surface's main picture fit along a "
+        "pixel, 0 without one: below 1 the picture is magnified, from 2 on it is as sharp as can "
+        "be; shading_difference, the light of the picture, whose samples are shaded and then "
+        "averaged, less that of maps averaged over the pixel and then shaded once: what a filter "
+        "cannot know of highlights and bumps, and edges. All but the difference, albedo and "
+        "coverage belong to the nearest sample, are never averaged and 0 where nothing is; what is "
+        "blended leaves them to what is behind it. A PNG shows one layer "
         "instead of the colour: albedo like a picture, directions as n / 2 + 1/2, depth as "
         "1 / (1 + Z), uv as red and green, an id as its own code, footprint as "
         "1 + log2(x) / 16 of its lengths to the right and upwards, texel_density as x / (1 + x), "

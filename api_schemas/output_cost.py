@@ -8,7 +8,7 @@ import math
 from collections.abc import Mapping
 
 from api_schemas.cost import Cost
-from api_schemas.output import SIDE_MAX, Layer, Output, RenderOutput
+from api_schemas.output import SIDE_MAX, Layer, Output, RenderOutput, TextureOutput
 
 SAMPLES_PER_TILE = 2048 * 2048
 SAMPLES_PER_LAYERED_TILE = 1024 * 1024
@@ -26,6 +26,7 @@ LAYER_CHANNELS: Mapping[Layer, int] = {
     "footprint": 4,
     "texel_density": 1,
     "shading_difference": 3,
+    "light_visibility": 1,
 }
 
 _SECONDS_TO_START = 0.01
@@ -44,7 +45,9 @@ _BYTES_PER_LAYERED_SAMPLE = 272
 
 def writing(output: Output) -> Cost:
     """Return the cost of making a file of pixels that are there."""
-    pixels = output.size[0] * output.size[1]
+    pixels = math.prod(output.file_size)
+    if isinstance(output, TextureOutput) and output.slices:
+        pixels = max(pixels, math.prod(output.size) * output.slices)
     if output.format == "exr":
         seconds = _SECONDS_PER_EXR_PIXEL[output.exr_type]
     else:

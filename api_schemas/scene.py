@@ -8,6 +8,7 @@ from pydantic import Field
 
 from api_schemas.base import Schema
 from api_schemas.camera import Camera
+from api_schemas.environment import Environment
 from api_schemas.language import MappableColor, Surface
 from api_schemas.lights import LIGHTS_MAX, Light
 from api_schemas.meshes import Mesh
@@ -61,13 +62,18 @@ class Scene(Schema):
     lights: Annotated[list[Light], Field(max_length=LIGHTS_MAX)] | None = Field(
         default=None,
         description="What shines: nothing if empty, so that only emission and unlit surfaces show. "
-        "Without the list, the lights that models bring, else those of a studio: a lamp over the "
-        "eye's shoulder in a bright room.",
+        "Without the list, the lights that models bring, else, where there is no environment, "
+        "those of a studio: a lamp over the eye's shoulder in a bright room.",
     )
     background: MappableColor | None = Field(
         default=None,
         description="What is seen where nothing is: a linear colour, or a picture over the whole "
         "width and height, read once for each pixel; transparent without, and where the picture "
         "is. Layers do not show it.",
+    )
+    environment: Environment | None = Field(
+        default=None,
+        description="The light from all around: it shines on what is there, and is seen in mirrors "
+        "and behind everything.",
     )
     nodes: Annotated[list[Node], Field(max_length=NODES_MAX)] = Field(description="What is there.")

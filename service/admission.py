@@ -9,10 +9,12 @@ from api_schemas.assets import AssetFacts
 from api_schemas.cost import Cost
 from api_schemas.digest import digest
 from api_schemas.estimate import estimate
-from api_schemas.feasibility import Obstacle, assets_in, obstacles
+from api_schemas.feasibility import assets_in, obstacles
 from api_schemas.normalise import formatted, normalise
+from api_schemas.obstacle import Obstacle
 from api_schemas.output import Format
 from api_schemas.problems import PROBLEMS_MAX, CostFigures, Obstruction
+from api_schemas.relief_use import relief_misuses
 from api_schemas.requests import Kind, RenderRequest, Request
 from service.problems import ProblemError
 
@@ -42,7 +44,8 @@ def examine(request: Request, file_format: Format, find_facts: FindFacts, limit:
         for pointer, sha256 in assets
         if sha256 not in facts
     )
-    found = (*obstacles(request), *missing, *misuses(request, facts))
+    misused = (*misuses(request, facts), *relief_misuses(request, facts))
+    found = (*obstacles(request), *missing, *misused)
     problems = [
         Obstruction(code=item.code, pointer=item.pointer, message=item.message)
         for item in found[: PROBLEMS_MAX - 1]

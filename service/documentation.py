@@ -78,6 +78,7 @@ def job_links() -> Document:
             ("self", "get_job", "How the job is."),
             ("cancel", "cancel_job", "Stop the job."),
             ("events", "get_events", "What happens to the job, as it happens."),
+            ("preview", "get_preview", "A small picture of how far it is."),
             ("result", "get_result", "The finished file."),
         )
     }
@@ -115,8 +116,15 @@ OBSTACLE_CODES: Final = (
     "nesting_too_deep",
     "too_many_nodes",
     "too_many_maps",
+    "layout_without_direction",
+    "time_step_unstable",
+    "no_steady_state",
+    "reaction_diverged",
+    "coordinates_missing",
     "layers_need_exr",
     "layer_unknown",
+    "texture_not_solid",
+    "atlas_too_large",
     "over_budget",
 )
 

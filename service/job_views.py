@@ -61,6 +61,7 @@ def view(job: Job, seconds_left: float | None) -> schemas.Job:
                 self=job_url(job.id),
                 events=f"{job_url(job.id)}/events",
                 cancel=job_url(job.id),
+                preview=f"{job_url(job.id)}/preview",
                 result=result_url(job.id),
             ),
         }

@@ -53,6 +53,7 @@ class ModelFiles:
             "body": request.model_dump(mode="json"),
             "digest": digest(request),
             "assets": str(self.folder),
+            "preview": str(self.folder / "preview"),
         }
         self.facts = run_job.run(order, out, lambda share, stage: None)
         return image_io.read(out, "linear", "colour").pixels

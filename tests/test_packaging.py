@@ -80,6 +80,7 @@ job = {
     "body": request.model_dump(mode="json"),
     "digest": digest(request),
     "assets": str(Path.cwd()),
+    "preview": str(Path.cwd() / "preview"),
 }
 run_job.run(job, Path("picture.png"), lambda progress, stage: None)
 """

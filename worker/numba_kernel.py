@@ -14,14 +14,15 @@ from __future__ import annotations
 
 import functools
 import threading
-from typing import TYPE_CHECKING, ParamSpec, TypeVar, cast
+from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar, cast
 
 import numba
+from numba.extending import overload
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["kernel", "parallel_kernel", "prange"]
+__all__ = ["by_type", "is_array", "kernel", "parallel_kernel", "prange"]
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -37,6 +38,19 @@ _one_at_a_time = threading.Lock()
 def kernel(function: Callable[P, R]) -> Callable[P, R]:
     """Compile a serial kernel on first use; division by zero follows IEEE instead of raising."""
     return cast("Callable[P, R]", numba.njit(cache=True, error_model="numpy")(function))
+
+
+def by_type(function: Callable[..., Any]) -> Callable[[Callable[P, R]], Callable[P, R]]:
+    """Let what is decorated choose, by the types of the arguments, the code of a function.
+
+    What is decorated takes types in the place of arguments and returns a function of these.
+    """
+    return cast("Callable[[Callable[P, R]], Callable[P, R]]", overload(function, strict=False))
+
+
+def is_array(argument: Any) -> bool:
+    """Whether a type that `by_type` passes is an array's."""
+    return isinstance(argument, numba.types.Array)
 
 
 def parallel_kernel(function: Callable[P, R]) -> Callable[P, R]:

@@ -40,7 +40,7 @@ def write(bands: Iterable[Mapping[str, Image]], output: Output, digest: str, pat
     Raises:
         OSError: The file cannot be written.
     """
-    height = output.size[1]
+    _, height = output.file_size
     if output.format == "exr":
         image_io.write_exr(
             ({_EXR_NAMES.get(name, name): band[name] for name in band} for band in bands),

@@ -12,14 +12,18 @@ from typing import Any
 from api_schemas.families import Meaning, TextureSpec
 from api_schemas.feasibility import assets_in
 from api_schemas.requests import REQUESTS, RenderRequest, Request
+from api_schemas.solid import worn_depth, worn_size
 from api_schemas.textures.image import ImageSpec
 from worker import result_file, synthesis
 from worker.errors import AssetMissingError
 from worker.fingerprint import fingerprint
 from worker.images.image import Image
+from worker.images.volume import Volume
+from worker.preview import Preview
 from worker.rendering import renderer
 from worker.rendering.packing import PICTURE
-from worker.rendering.scene_builder import TextureMaker
+from worker.rendering.texture_maker import TextureMaker
+from worker.slices import slices_in
 from worker.stages import Report, Stages, Timed
 from worker.uploaded_models import UploadedModels
 from worker.uploaded_pictures import UploadedPictures
@@ -44,7 +48,8 @@ def run(request: dict[str, Any], out: Path, report: Report) -> dict[str, Any]:
     """Make the picture a request asks for and write it to `out`.
 
     Args:
-        request: `kind`, the normalised `body`, its `digest`, and the folder of `assets`.
+        request: `kind`, the normalised `body`, its `digest`, the folder of `assets`, and
+            where a `preview` may be left.
         out: Where the file is written; whoever asked gives it its final name.
         report: Told the share of the job that is done, 0..1, and the name of the stage.
 
@@ -56,7 +61,7 @@ def run(request: dict[str, Any], out: Path, report: Report) -> dict[str, Any]:
         WorkerError: The job cannot be done; its code says why.
     """
     body: Request = REQUESTS[request["kind"]].model_validate(request["body"])
-    width, height = body.output.size
+    width, height = body.output.file_size
     stages = Stages(report)
     timings, counts = stages.timings, dict[str, int]()
     found: Mapping[str, Any] = {}
@@ -80,9 +85,23 @@ def run(request: dict[str, Any], out: Path, report: Report) -> dict[str, Any]:
         timings["render_ms"] = round(timings["render_ms"] - encoding, 3)
         timings |= drawn.timings
         counts, found, warnings = drawn.counts, drawn.report, drawn.warnings
+    elif body.output.slices:
+        with stages.stage("synthesise", 0.02, 0.85) as progress:
+            across, up = body.output.size
+            size = (across, up, body.output.slices)
+            volume = synthesis.synthesize_volume(body.texture, size, report=progress)
+        with stages.stage("encode", 0.85, 0.98):
+            band = slices_in(volume, body.output)
+            media_type = result_file.write([band], body.output, request["digest"], out)
     else:
         with stages.stage("synthesise", 0.02, 0.85) as progress:
-            made = synthesis.outcome(body.texture, (width, height), pictures.read, report=progress)
+            made = synthesis.outcome(
+                body.texture,
+                (width, height),
+                pictures.read,
+                report=progress,
+                show=Preview(Path(request["preview"])).show,
+            )
         found = made.report
         with stages.stage("encode", 0.85, 0.98):
             band = {PICTURE: made.image} | {name: made.layers[name] for name in body.output.layers}
@@ -116,13 +135,16 @@ def _find(body: Request, assets: Path) -> None:
 def _maker(read: Callable[[ImageSpec, Meaning], Image]) -> TextureMaker:
     """Make textures for surfaces: pictures at their own size, others at their technique's."""
 
-    def make(spec: TextureSpec, meaning: Meaning) -> Image:
+    def picture(spec: TextureSpec, meaning: Meaning, proportion: tuple[int, int] = (1, 1)) -> Image:
         if isinstance(spec, ImageSpec):
             return read(spec, meaning)
-        size = (spec.surface_side, spec.surface_side)
-        return synthesis.synthesize(spec, size, read, meaning)
+        return synthesis.synthesize(spec, worn_size(spec, proportion), read, meaning)
 
-    return make
+    def volume(spec: TextureSpec, meaning: Meaning) -> Volume:
+        side = worn_depth(spec)
+        return synthesis.synthesize_volume(spec, (side, side, side), meaning)
+
+    return TextureMaker(picture, volume, synthesis.closed_form)
 
 
 def _no_picture(spec: ImageSpec, meaning: Meaning) -> Image:

@@ -19,6 +19,8 @@ class AddSpec(TextureSpec):
 
     source: ClassVar[str] = "none needed"
     equation: ClassVar[str] = "a + weight b"
+    solid: ClassVar[bool] = True
+    pointwise: ClassVar[bool] = True
 
     technique: Literal["add"]
     a: Texture = Field(description="What is added to.")

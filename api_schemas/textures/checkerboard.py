@@ -27,3 +27,7 @@ class CheckerboardSpec(TextureSpec):
         default=[[0.85, 0.85, 0.85], [0.15, 0.15, 0.15]],
         description="Linear colour of the square at the lower left corner, and of its neighbours.",
     )
+
+    def has_formula(self) -> bool:
+        """Always."""
+        return True

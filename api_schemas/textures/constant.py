@@ -31,3 +31,7 @@ class ConstantSpec(TextureSpec):
     ] = Field(
         description="A grey, or 1 to 4 linear channels; with 2 or 4 the last is straight alpha."
     )
+
+    def has_formula(self) -> bool:
+        """Always."""
+        return True

@@ -55,6 +55,10 @@ class GardnerSpec(TextureSpec):
         default="unit", description="Values around 0.5 within 0..1, or around 0 within -1..1."
     )
 
+    def has_formula(self) -> bool:
+        """Always."""
+        return True
+
     def cost(self, pixels: int) -> Cost:
         """One matrix product, twice as deep as there are waves, after a search for the waves."""
         waves = len(self.waves) or self.count

@@ -18,6 +18,8 @@ class MaximumSpec(TextureSpec):
 
     source: ClassVar[str] = "none needed"
     equation: ClassVar[str] = "max(a, b), each channel on its own"
+    solid: ClassVar[bool] = True
+    pointwise: ClassVar[bool] = True
 
     technique: Literal["maximum"]
     a: Texture = Field(description="The one texture.")

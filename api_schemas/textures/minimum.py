@@ -18,6 +18,8 @@ class MinimumSpec(TextureSpec):
 
     source: ClassVar[str] = "none needed"
     equation: ClassVar[str] = "min(a, b), each channel on its own"
+    solid: ClassVar[bool] = True
+    pointwise: ClassVar[bool] = True
 
     technique: Literal["minimum"]
     a: Texture = Field(description="The one texture.")

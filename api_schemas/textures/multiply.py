@@ -18,6 +18,8 @@ class MultiplySpec(TextureSpec):
 
     source: ClassVar[str] = "none needed"
     equation: ClassVar[str] = "a b"
+    solid: ClassVar[bool] = True
+    pointwise: ClassVar[bool] = True
 
     technique: Literal["multiply"]
     a: Texture = Field(description="What is multiplied.")

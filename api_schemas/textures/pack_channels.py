@@ -20,6 +20,8 @@ class PackChannelsSpec(TextureSpec):
     source: ClassVar[str] = "none needed"
     equation: ClassVar[str] = "(r, g, b, a), the first channel of each"
     meaning: ClassVar[Meaning] = "data"
+    solid: ClassVar[bool] = True
+    pointwise: ClassVar[bool] = True
 
     technique: Literal["pack_channels"]
     r: Annotated[Operand, DATA] = Field(

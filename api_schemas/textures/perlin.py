@@ -77,6 +77,10 @@ class PerlinSpec(TextureSpec):
         "formula gives them.",
     )
 
+    def has_formula(self) -> bool:
+        """Not for slopes."""
+        return self.output != "slope"
+
     def cost(self, pixels: int) -> Cost:
         """Each octave passes over every pixel once, more often where it is not just added."""
         if self.output == "slope":

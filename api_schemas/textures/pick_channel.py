@@ -19,6 +19,8 @@ class PickChannelSpec(TextureSpec):
     source: ClassVar[str] = "ITU-R BT.709 (luminance)"
     equation: ClassVar[str] = "luminance = .2126 r + .7152 g + .0722 b"
     meaning: ClassVar[Meaning] = "data"
+    solid: ClassVar[bool] = True
+    pointwise: ClassVar[bool] = True
 
     technique: Literal["pick_channel"]
     input: Texture = Field(description="The texture it is taken from, read as its own place is.")

@@ -40,3 +40,7 @@ class RampSpec(TextureSpec):
     interpolation: Literal["linear", "smooth", "step"] = Field(
         default="linear", description="Straight blends, blends with soft ends, or flat bands."
     )
+
+    def has_formula(self) -> bool:
+        """Always."""
+        return True

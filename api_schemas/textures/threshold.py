@@ -21,6 +21,8 @@ class ThresholdSpec(TextureSpec):
     source: ClassVar[str] = "none needed"
     equation: ClassVar[str] = "s^2 (3 - 2 s), s = clamp((input - level) / softness + 1/2, 0, 1)"
     meaning: ClassVar[Meaning] = "data"
+    solid: ClassVar[bool] = True
+    pointwise: ClassVar[bool] = True
 
     technique: Literal["threshold"]
     input: Annotated[Texture, DATA] = Field(description="The texture whose first channel decides.")

@@ -42,6 +42,10 @@ class WorleySpec(TextureSpec):
     )
     seed: Seed = Field(default=0, description="Another number, other points.")
 
+    def has_formula(self) -> bool:
+        """Always."""
+        return True
+
     def cost(self, pixels: int) -> Cost:
         """About twenty points are looked at for each pixel, and every cell makes its own."""
         return Cost(

@@ -28,7 +28,7 @@ from service.engine_access import Engine
 from service.job_views import WELL_FORMED, found_job, job_url, require_succeeded, result, view
 from service.negotiation import patience, require_accepted
 from service.problems import ProblemError
-from service.stored_files import names
+from service.stored_files import INERT, names
 from service.submission import job_answer, picture, waited
 from service.tenants import Tenant
 from worker.jobs.watch import news_id
@@ -189,3 +189,28 @@ def get_result(request: Request, job_id: JOB_ID, engine: Engine, tenant: Tenant)
     require_succeeded(job)
     require_accepted(request, result(job).media_type)
     return picture(request, job, engine, {"Vary": "Accept"})
+
+
+@router.get(
+    "/v1/jobs/{job_id}/preview",
+    operation_id="get_preview",
+    summary="See how far a job is",
+    response_class=Response,
+    responses={
+        200: {
+            "description": "A PNG of at most 256 x 256, of the step that was finished last.",
+            "content": {"image/png": {}},
+        },
+        **problems("job_unknown", "preview_missing"),
+    },
+)
+def get_preview(job_id: JOB_ID, engine: Engine, tenant: Tenant) -> Response:
+    """There is one while a technique that goes by steps is running, and none afterwards."""
+    path = engine.preview_path(found_job(engine, tenant, job_id))
+    try:
+        content = path.read_bytes() if path else None
+    except FileNotFoundError:  # the job was finished meanwhile
+        content = None
+    if content is None:
+        raise ProblemError("preview_missing")
+    return Response(content, headers={**INERT, "Cache-Control": "no-store"}, media_type="image/png")

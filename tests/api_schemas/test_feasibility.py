@@ -187,6 +187,39 @@ def test_a_layer_that_a_texture_does_not_tell_is_named():
     assert found(TextureRequest.model_validate(body)) == [("layer_unknown", "/output/layers/0")]
 
 
+@pytest.mark.parametrize(
+    ("texture", "output", "codes"),
+    [
+        ({"technique": "perlin"}, {"slices": 9}, []),
+        ({"technique": "granite"}, {"slices": 9, "arrangement": "layers", "format": "exr"}, []),
+        (
+            {"technique": "levels", "input": {"technique": "gray_scott"}},
+            {"slices": 9},
+            [("texture_not_solid", "/texture/input")],
+        ),
+        (
+            {"technique": "perlin"},
+            {"slices": 9, "layers": ["field"]},
+            [("layer_unknown", "/output/layers"), ("layer_unknown", "/output/layers/0")],
+        ),
+        (
+            {"technique": "perlin"},
+            {"slices": 2, "arrangement": "layers", "format": "png"},
+            [("layers_need_exr", "/output/arrangement")],
+        ),
+        (
+            {"technique": "perlin"},
+            {"slices": 1024, "size": [1024, 512]},
+            [("atlas_too_large", "/output/slices")],
+        ),
+    ],
+)
+def test_slices_need_a_solid_texture_and_a_file_that_holds_them(texture, output, codes):
+    body = {"texture": texture, "output": output}
+
+    assert found(TextureRequest.model_validate(body)) == codes
+
+
 def test_lights_share_four_pictures():
     def spot(number):
         picture = {"technique": "perlin", "seed": number}

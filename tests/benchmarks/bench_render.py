@@ -144,7 +144,7 @@ def noise(spec: TextureSpec, meaning: Meaning, side: int = 1024) -> Image:
     if not isinstance(spec, ConstantSpec):
         from worker.synthesis import synthesize  # noqa: PLC0415  a first draw has none
 
-        return synthesize(spec, (spec.surface_side, spec.surface_side), no_picture, meaning)
+        return synthesize(spec, spec.surface_size, no_picture, meaning)
     assert isinstance(spec.value, float)
     random = np.random.default_rng(int(spec.value))
     channels = 3 if meaning == "colour" else 1

@@ -68,7 +68,7 @@ def test_operations_have_names_and_links_name_operations():
     assert len(names) == len(set(names))
     assert all(name.islower() for name in names)
     assert {
-        *("get_job", "cancel_job", "get_result", "get_events"),
+        *("get_job", "cancel_job", "get_preview", "get_result", "get_events"),
         *("get_batch", "cancel_batch", "get_manifest"),
         *("get_asset", "delete_asset"),
     } == linked

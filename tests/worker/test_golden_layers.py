@@ -24,6 +24,7 @@ CHANNELS = {
     "footprint": [f"footprint.{letter}" for letter in "XYZW"],
     "texel_density": ["texel_density"],
     "shading_difference": [f"shading_difference.{letter}" for letter in "RGB"],
+    "light_visibility": ["light_visibility"],
 }
 
 

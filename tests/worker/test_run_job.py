@@ -34,6 +34,7 @@ def order(kind: Kind, content: dict[str, Any], **output: Any) -> dict[str, Any]:
         "body": settled.model_dump(mode="json"),
         "digest": digest(settled),
         "assets": "no such folder",
+        "preview": "no such folder/preview",
     }
 
 

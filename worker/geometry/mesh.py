@@ -82,6 +82,12 @@ def grid_triangles(columns: int, rows: int) -> NDArray[np.uint32]:
 
 
 def circle(segments: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Give cosine and sine of 0..segments equal steps round; the last equals the first, exactly."""
-    angle = 2 * np.pi * (np.arange(segments + 1) % segments) / segments
-    return np.cos(angle), np.sin(angle)
+    """Give cosine and sine of 0..segments equal steps round.
+
+    The last equals the first and the second half mirrors the first one, to the last bit: what runs
+    round the other way has its vertices at the same places.
+    """
+    step = np.arange(segments + 1) % segments
+    angle = 2 * np.pi * np.minimum(step, segments - step) / segments
+    sine = np.where(2 * step == segments, 0.0, np.sin(angle))
+    return np.cos(angle), np.where(2 * step > segments, -sine, sine)

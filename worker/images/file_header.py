@@ -65,7 +65,9 @@ def inspect(spec: Any, kind: FileKind) -> Header:
     is_exr = kind.format == "openexr"
     data = Window(spec.x, spec.y, spec.width, spec.height)
     full = Window(spec.full_x, spec.full_y, spec.full_width, spec.full_height)
-    display = full if is_exr else data
+    # The library gives a cube of OpenEXR the display window of one face.
+    is_cube = spec.getattribute("textureformat") == "CubeFace Environment"
+    display = full if is_exr and not is_cube else data
     for window in (data, display):
         if max(window.width, window.height) > SIDE_MAX or window.width * window.height > TEXELS_MAX:
             raise too_large(f"{window.width} x {window.height} texels")

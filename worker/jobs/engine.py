@@ -233,6 +233,11 @@ class EmbeddedEngine:
         """The result of a succeeded job; None when it was evicted."""
         return self._data.results.find(job.work_id)
 
+    def preview_path(self, job: Job) -> Path | None:
+        """A picture of how far a job is, a PNG; None while there is none."""
+        path = self._data.results.preview(job.work_id)
+        return path if path.is_file() else None
+
     def measure(
         self, path: Path, time_limit_seconds: float, media_type: str = ""
     ) -> dict[str, Any]:

@@ -100,6 +100,9 @@ class JobQueue(Protocol):
     def result_path(self, job: Job) -> Path | None:
         """The result of a succeeded job; None when it was evicted."""
 
+    def preview_path(self, job: Job) -> Path | None:
+        """A picture of how far a job is, a PNG; None while there is none."""
+
     def measure(
         self, path: Path, time_limit_seconds: float, media_type: str = ""
     ) -> dict[str, Any]:

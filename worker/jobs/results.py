@@ -88,6 +88,10 @@ class Results:
         """Where one attempt at the work writes."""
         return self._folder / f"{work_id}.{attempt}{HALF}"
 
+    def preview(self, work_id: str) -> Path:
+        """Where the work may leave a picture of how far it is."""
+        return self._folder / f"{work_id}.preview{HALF}"
+
     def settle(self, half: Path) -> None:
         """Bring a written file to the disk.
 

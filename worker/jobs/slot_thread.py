@@ -170,6 +170,7 @@ class SlotThread(threading.Thread):
             desk.line.done(claim.work_id)
             self._doing = None
             half.unlink(missing_ok=True)
+            desk.results.preview(claim.work_id).unlink(missing_ok=True)
         desk.settled(claim.work_id)
         self._done += 1
         self._done_by_child += 1
@@ -182,6 +183,7 @@ class SlotThread(threading.Thread):
             "body": claim.body,
             "digest": claim.digest,
             "assets": str(self._desk.assets.folder),
+            "preview": str(self._desk.results.preview(claim.work_id)),
         }
         next_report = time.monotonic() + REPORT_SECONDS  # short work is not worth a write
         furthest = 0.0

@@ -80,6 +80,6 @@ def _stretch(angle: Numbers, model: Model) -> Numbers:
         case "equisolid":
             return 2 * np.sin(angle / 2)
         case "stereographic":
-            return np.sin(angle) * np.cos(angle / 2) ** 2
+            return np.asarray(np.sin(angle) * np.cos(angle / 2) ** 2)
         case "orthographic":
             return np.tan(angle)

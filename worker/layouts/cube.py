@@ -99,3 +99,21 @@ def solid_angles(spec: CubeSpec, width: int, height: int) -> Numbers:
         corners = np.arctan2(x * y, np.sqrt(x * x + y * y + 1))
         found += np.diff(np.diff(corners, axis=0), axis=1)
     return found
+
+
+def faces_of_opengl(spec: CubeSpec, pixels: NDArray[np.float32]) -> list[NDArray[np.float32]]:
+    """Cut a picture into the faces +x, -x, +y, -y, +z, -z of a cube map, each with t = 0 on top.
+
+    Args:
+        spec: How they lie on it.
+        pixels: (height, width, channels), as many squares as the arrangement has.
+    """
+    side = pixels.shape[1] // spec.proportion[0]
+    wanted = sides(spec.model_copy(update={"arrangement": "row", "orientation": "gl"}))
+    faces = []
+    for face in _FACES:
+        column, row, _ = cells(spec)[face]
+        cell = pixels[row * side : (row + 1) * side, column * side : (column + 1) * side]
+        right, up, _ = (sides(spec)[face] * wanted[face]).sum(axis=1)
+        faces.append(cell[:: int(up), :: int(right)])
+    return faces

@@ -71,6 +71,12 @@ class Model:
     warnings: tuple[str, ...]
 
     @property
+    def triangles(self) -> int:
+        """How many it draws."""
+        solid = (part.mesh for part in self.parts if part.mesh.kind == "triangles")
+        return sum(len(mesh.triangles) for mesh in solid)
+
+    @property
     def size_bytes(self) -> int:
         """What its meshes and pictures occupy."""
         meshes = {part.key: part.mesh for part in self.parts}

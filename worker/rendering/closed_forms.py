@@ -6,7 +6,8 @@ A chunk shaders/textures/<technique>.glsl has a function
 
 of a place in tiles, 0 deep in a picture, and the steps from there to the pixel's neighbours on the
 right and above. It gives what a sampler would: a grey as three equal channels, a missing alpha
-as 1. A parameter `vec4 <field>_value` is the value, at the same place, of the texture in a field.
+as 1. A parameter `vec4 <field>_value` is the value, at the same place, of the texture in a field,
+or, where there is none, a uniform like the others.
 """
 
 import re
@@ -51,8 +52,9 @@ def formula(form: ClosedForm, name: str) -> Formula:
         values = ["place", "across_x", "across_y"]
         for kind, argument, count in _arguments(path):
             own = f"{name}_{argument}"
-            if kind == "vec4" and argument.endswith(_VALUE):
-                values.append(call(form.inputs[argument.removesuffix(_VALUE)], own))
+            nested = form.inputs.get(argument.removesuffix(_VALUE))
+            if argument.endswith(_VALUE) and nested is not None:
+                values.append(call(nested, own))
                 continue
             declarations.append(f"uniform {kind} {own}{count};")
             uniforms[own] = form.parameters[argument]

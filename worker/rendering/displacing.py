@@ -17,7 +17,20 @@ from worker.rendering.lookups import texture_from_uv
 from worker.rendering.samplers import Sampling
 
 
-def with_relief(mesh: Mesh, spec: Displacement, image: Image) -> Mesh:
+def levels_of(spec: Displacement, triangles: int) -> int:
+    """Return how often edges are halved on something of so many triangles.
+
+    Raises:
+        RenderError: It would have too many (`over_budget`).
+    """
+    count = spec.triangles(triangles)
+    if count > DISPLACED_TRIANGLES_MAX:
+        message = f"{count} triangles after subdivision; at most {DISPLACED_TRIANGLES_MAX}"
+        raise RenderError(message, code="over_budget")
+    return spec.levels(triangles)
+
+
+def with_relief(mesh: Mesh, spec: Displacement, levels: int, image: Image) -> Mesh:
     """Subdivide a mesh and move its vertices by the heights of a picture.
 
     Lines and points stay as they are.
@@ -25,25 +38,18 @@ def with_relief(mesh: Mesh, spec: Displacement, image: Image) -> Mesh:
     Args:
         mesh: In the object's frame.
         spec: How.
+        levels: How often its edges are halved.
         image: The relief, data; what is no number in it is 0.
 
     Raises:
-        RenderError: It would have too many triangles (`over_budget`), or it has no texture
-            coordinates (`coordinates_missing`).
+        RenderError: It has no texture coordinates (`coordinates_missing`).
     """
     if mesh.kind != "triangles" or not mesh.triangles.size:
         return mesh
     if not mesh.uv_sets:
         message = "a displaced mesh needs texture coordinates"
         raise RenderError(message, code="coordinates_missing")
-    before = len(mesh.triangles)
-    if spec.triangles(before) > DISPLACED_TRIANGLES_MAX:
-        message = (
-            f"{spec.triangles(before)} triangles after subdivision; "
-            f"at most {DISPLACED_TRIANGLES_MAX}"
-        )
-        raise RenderError(message, code="over_budget")
-    fine = subdivided(mesh, spec.levels(before), spec.longest_edge)
+    fine = subdivided(mesh, levels, spec.longest_edge)
     return displaced(fine, _heights(fine, spec, image))
 
 

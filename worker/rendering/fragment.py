@@ -1,9 +1,18 @@
 """The fragment shader of a surface: its chunk, and generated code that fills its parameters."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Sequence
+from functools import partial
 
 from worker.rendering.chunks import Source, chunk, join
 from worker.rendering.light_code import light_chunks, light_lines
+from worker.rendering.lookup_fragment import (
+    in_space,
+    looking,
+    lookup_chunks,
+    lookup_declarations,
+    place_of,
+    texels,
+)
 from worker.rendering.relief_fragment import aside, relief_chunks, tilts
 from worker.rendering.shading import is_lit
 from worker.rendering.shading_layout import (
@@ -11,6 +20,7 @@ from worker.rendering.shading_layout import (
     LookupLayout,
     Parameter,
     ShadingLayout,
+    SkyKind,
 )
 
 VERSION = "#version 410 core"
@@ -42,18 +52,14 @@ def hole_sources(layout: ShadingLayout) -> tuple[Source, Source]:
     """Return the sources that draw the depth alone, with holes where little or nothing is."""
     read = [p for p in (layout.opacity, layout.selection) if p is not None]
     numbers = list(dict.fromkeys(p.lookup for p in read if p.lookup is not None))
-    calls = [(call, number) for number in numbers for call in layout.lookups[number].calls]
-    chunks = ["lib/fragment.glsl", "lib/opacity.glsl", *(call.chunk for call, _ in calls)]
-    lines = _head(layout, chunks)
-    for call, number in calls:
-        lines += call.declarations(number)
+    lines = _head(layout, ["lib/fragment.glsl", "lib/opacity.glsl"])
     for parameter in read:
         lines += _declarations(parameter)
     lines += [
         *(_SELECTED if layout.selection else []),
         "void main() {",
         "    SurfacePoint point = surface_point();",
-        *_texels(layout, numbers, _place),
+        *texels(layout, numbers, partial(place_of, layout)),
     ]
     lines += _selection(layout)
     if layout.opacity:
@@ -68,12 +74,10 @@ def background_sources(layout: ShadingLayout) -> tuple[Source, Source]:
     (color,) = layout.parameters
     texel = f"texel_{color.lookup}"
     lines = [
-        *_head(layout, ["lib/background.glsl"]),
+        *_head(layout, ["lib/background.glsl"], calls=False),
         *_declarations(color),
         "void main() {",
-        *_texels(
-            layout, range(len(layout.lookups)), lambda lookup, number: "coordinates_picture()"
-        ),
+        *texels(layout, range(len(layout.lookups)), lambda lookup, number: "coordinates_picture()"),
         f"    vec3 light = color_scale * {texel}.rgb + color_bias * {texel}.a;",
         f"    color = holdable(vec4(light, clamp({texel}.a, 0.0, 1.0)));",
         "}",
@@ -82,23 +86,36 @@ def background_sources(layout: ShadingLayout) -> tuple[Source, Source]:
     return vertex, join("\n".join(lines), "background")
 
 
+def sky_sources(kind: SkyKind) -> tuple[Source, Source]:
+    """Return the sources that draw what is behind everything as the eye looks through it."""
+    lines = [
+        VERSION,
+        '#include "lib/sky_background.glsl"',
+        f'#include "skies/{kind}.glsl"',
+        "void main() {",
+        "    vec3 towards = ray();",
+        "    float reach = max(length(dFdx(towards)), length(dFdy(towards)));",
+        "    color = holdable(vec4(sky_in_mirror(towards, reach, 0.0), 1.0));",
+        "}",
+    ]
+    vertex = join(chunk("whole_target.vert"), "whole_target.vert")
+    return vertex, join("\n".join(lines), "sky")
+
+
 def _fragment(layout: ShadingLayout, lights: LightLayout, layered: bool, plane: bool) -> str:
     others = (layout.opacity, layout.light_map, layout.selection)
     parameters = [*layout.parameters, *(parameter for parameter in others if parameter)]
     chunks = [f"lib/{'infinite_plane' if plane else 'fragment'}.glsl"]
     chunks += [f"surfaces/{layout.technique}.glsl"]
-    calls = [(call, n) for n, lookup in enumerate(layout.lookups) for call in lookup.calls]
-    chunks += [call.chunk for call, _ in calls]
     chunks += relief_chunks(layout.relief)
     chunks += ["lib/opacity.glsl"] if layout.opacity else []
     chunks += ["lib/layers.glsl"] if layered else []
+    lit = is_lit(layout.technique) or lights.visibility
     if is_lit(layout.technique):
-        chunks += light_chunks(lights)
+        chunks.append(f"skies/{lights.sky}.glsl")
+    chunks += light_chunks(lights) if lit else []
     lines = _head(layout, chunks)
-    if is_lit(layout.technique):
-        lines += light_lines(lights)
-    for call, number in calls:
-        lines += call.declarations(number)
+    lines += light_lines(lights) if lit else []
     for parameter in parameters:
         lines += _declarations(parameter)
     lines += _SELECTED if layout.selection else []
@@ -115,6 +132,8 @@ def _fragment(layout: ShadingLayout, lights: LightLayout, layered: bool, plane: 
         lines.append(_BY_OPACITY[layout.alpha_mode])
     if layered:
         lines.append(f"    write_layers(point, albedo(surface), color.a, {_density(layout)});")
+    if lights.visibility:
+        lines.append("    layer_tangent.a = light_visibility(point);")
     if plane:
         lines.append("    if (!on_plane()) discard;")
     return "\n".join([*lines, "}"])
@@ -131,23 +150,11 @@ def _selection(layout: ShadingLayout) -> list[str]:
     ]
 
 
-def _head(layout: ShadingLayout, chunks: Sequence[str]) -> list[str]:
+def _head(layout: ShadingLayout, chunks: Sequence[str], *, calls: bool = True) -> list[str]:
     """Write the chunks and the uniforms of lookups."""
-    lookups = layout.lookups
-    chunks = [*chunks, *(f"lib/sample_{lookup.filter}.glsl" for lookup in lookups)]
+    chunks = [*chunks, *lookup_chunks(layout)]
     lines = [VERSION, *(f'#include "{name}"' for name in dict.fromkeys(chunks))]
-    if lookups:
-        lines += [
-            *(
-                f"uniform sampler2D {name};"
-                for name in layout.samplers
-                if name not in layout.tables
-            ),
-            f"uniform mat3 lookup_transform[{len(lookups)}];",
-            f"uniform vec4 lookup_period[{len(lookups)}];",
-            f"uniform vec2 lookup_size[{len(lookups)}];",
-        ]
-    return lines
+    return lines + lookup_declarations(layout, calls=calls)
 
 
 def _relief(layout: ShadingLayout) -> list[str]:
@@ -155,69 +162,24 @@ def _relief(layout: ShadingLayout) -> list[str]:
 
     What tilts is read first, so that a bumped mirror reflects by its bumps.
     """
-    place = _place if layout.relief.parallax is None else _moved_place
+    plain = partial(place_of, layout)
+    place = plain if layout.relief.parallax is None else partial(_moved_place, layout)
 
     def read(number: int) -> list[str]:
-        return _texels(layout, [number], place)
+        return texels(layout, [number], place)
 
     early = layout.relief.tilting
     late = [number for number in range(len(layout.lookups)) if number not in early]
     return [
-        *aside(layout, lambda number: _place(layout.lookups[number], number)),
+        *aside(layout, lambda number: plain(layout.lookups[number], number)),
         *tilts(layout.relief, read, lambda number: place(layout.lookups[number], number)),
-        *_texels(layout, late, place),
+        *texels(layout, late, place),
     ]
 
 
-def _texels(
-    layout: ShadingLayout, numbers: Iterable[int], place: Callable[[LookupLayout, int], str]
-) -> list[str]:
-    """Write the readings with these numbers; `place` gives what says where."""
-    lines = []
-    for number in numbers:
-        where = place(layout.lookups[number], number)
-        if layout.lookups[number].returns == "Triplanar":
-            lines += _three_texels(layout.lookups[number], number, where)
-        else:
-            lines.append(
-                f"    vec4 texel_{number} = {_reading(layout.lookups[number], number, where)};"
-            )
-    return lines
-
-
-def _three_texels(lookup: LookupLayout, number: int, where: str) -> list[str]:
-    """Write three readings, blended so that a constant picture is constant to the last bit."""
-    sides, texel = f"sides_{number}", f"texel_{number}"
-    x, y, z = (_reading(lookup, number, f"{sides}.along_{axis}") for axis in "xyz")
-    weights = f"{sides}.weights"
-    return [
-        f"    Triplanar {sides} = {where};",
-        f"    vec4 {texel} = {x};",
-        f"    {texel} += {weights}.y * ({y} - {texel}) + {weights}.z * ({z} - {texel});",
-    ]
-
-
-def _reading(lookup: LookupLayout, number: int, where: str) -> str:
-    return f"sample_{lookup.filter}(picture_{lookup.picture}, {_looking(where, number)})"
-
-
-def _looking(where: str, number: int) -> str:
-    return (
-        f"look_up({where}, lookup_transform[{number}], lookup_period[{number}], "
-        f"lookup_size[{number}])"
-    )
-
-
-def _place(lookup: LookupLayout, number: int) -> str:
-    """Write where to look: coordinates are of the point, a layout is of coordinates."""
-    text = "point"
-    for call in lookup.calls:
-        text = call.text(text, number)
-    return f"flat_reach({text})" if lookup.returns == "Reach" else text
-
-
-def _moved_place(lookup: LookupLayout, number: int) -> str:
-    return f"moved({_place(lookup, number)}, aside)"
+def _moved_place(layout: ShadingLayout, lookup: LookupLayout, number: int) -> str:
+    text = place_of(layout, lookup, number)
+    return text if in_space(layout, lookup) else f"moved({text}, aside)"
 
 
 def _density(layout: ShadingLayout) -> str:
@@ -225,10 +187,13 @@ def _density(layout: ShadingLayout) -> str:
     mapped = {p.name: p.lookup for p in layout.parameters if p.lookup is not None}
     main = next((name for name in _MAIN if name in mapped), None)
     number = mapped[main] if main else next(iter(mapped.values()), None)
-    if number is None or layout.lookups[number].returns == "Triplanar":
+    if number is None:
         return "0.0"
-    place = _place if layout.relief.parallax is None else _moved_place
-    return f"texel_density({_looking(place(layout.lookups[number], number), number)})"
+    lookup = layout.lookups[number]
+    if lookup.picture is None or lookup.returns == "Triplanar" or in_space(layout, lookup):
+        return "0.0"
+    place = place_of if layout.relief.parallax is None else _moved_place
+    return f"texel_density({looking(place(layout, lookup, number), number)})"
 
 
 def _declarations(parameter: Parameter) -> list[str]:

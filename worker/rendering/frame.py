@@ -48,6 +48,7 @@ class Frame:
         corner: Of the tile in the picture, in samples from the lower left.
         picture: Width and height of the whole picture in pixels.
         supersampling: Samples along each side of a pixel.
+        tile_from_picture: Stretches the tile's part of clip space over all of it.
         blending: Whether what is drawn now lets light through.
     """
 
@@ -60,6 +61,7 @@ class Frame:
     corner: NDArray[np.float64]
     picture: NDArray[np.float64]
     supersampling: int
+    tile_from_picture: NDArray[np.float64]
     blending: bool
 
     def place(self, program: Program, primitive: SurfacePrimitive) -> None:

@@ -59,6 +59,7 @@ class GLContext:
         platform = _new_platform()
         platform.init_context()
         platform.make_current()
+        GL.glEnable(GL.GL_TEXTURE_CUBE_MAP_SEAMLESS)
         context = cls(platform=platform, thread=threading.get_ident())
         atexit.register(platform.delete_context)
         if not bool(glClipControl):

@@ -5,7 +5,7 @@ from worker.rendering.shading_layout import LightLayout
 
 def light_chunks(layout: LightLayout) -> list[str]:
     """Return the chunks that let_through needs."""
-    chunks = ["lib/lights.glsl"]
+    chunks = ["lib/light_visibility.glsl" if layout.visibility else "lib/lights.glsl"]
     chunks += ["lib/shadows.glsl"] if layout.shadows else []
     if layout.cookies:
         chunks.append("lib/cookies.glsl")
@@ -14,7 +14,7 @@ def light_chunks(layout: LightLayout) -> list[str]:
 
 
 def light_lines(layout: LightLayout) -> list[str]:
-    """Write let_through, which lib/lights.glsl asks; without shadows and cookies it is all."""
+    """Write what lib/lights.glsl asks; without shadows and cookies all light comes through."""
     count = len(layout.cookies)
     declared = [f"uniform sampler2D {name};" for name in layout.samplers]
     if count:
@@ -22,10 +22,15 @@ def light_lines(layout: LightLayout) -> list[str]:
             f"uniform vec4 cookie_period[{count}];",
             f"uniform vec2 cookie_size[{count}];",
         ]
-    lines = [*declared, "vec3 let_through(int light, SurfacePoint point) {"]
-    lines.append("    vec3 share = vec3(1.0);")
-    if layout.shadows:
-        lines.append("    share *= unshaded(light, point.position, point.smooth_normal);")
+    seen = "unshaded(light, point.position, point.smooth_normal)" if layout.shadows else "1.0"
+    lines = [
+        *declared,
+        "float seen_by_light(int light, SurfacePoint point) {",
+        f"    return {seen};",
+        "}",
+        "vec3 let_through(int light, SurfacePoint point) {",
+        "    vec3 share = vec3(seen_by_light(light, point));",
+    ]
     if count:
         lines.append("    Footprint place = cookie_place(light, point.position);")
     lines += [

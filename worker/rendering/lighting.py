@@ -26,16 +26,18 @@ class Lighting:
         uniforms: Of lit programs.
         views: The shadow maps that are drawn first.
         cookies: Pictures before lights.
+        visibility: Whether a layer tells what comes through.
     """
 
     uniforms: Mapping[str, Any]
     views: tuple[LightView, ...]
     cookies: Cookies
+    visibility: bool = False
 
     @property
     def layout(self) -> LightLayout:
         """What lit programs must know to be compiled."""
-        return LightLayout(shadows=bool(self.views), cookies=self.cookies.layouts)
+        return LightLayout(bool(self.views), self.cookies.layouts, self.visibility)
 
 
 def lighting(
@@ -43,6 +45,8 @@ def lighting(
     eye: NDArray[np.float64],
     cookies: Cookies,
     corners: Callable[[], NDArray[np.float64]],
+    *,
+    visibility: bool = False,
 ) -> Lighting:
     """Give the lights seen from the eye, in the request's order; ambient lights add up.
 
@@ -52,6 +56,7 @@ def lighting(
         cookies: The pictures before these lights.
         corners: Gives (n, 3), those of boxes that hold all that is drawn, in the world; asked for
             only where there are shadows.
+        visibility: Whether a layer tells what comes through.
 
     Raises:
         RenderError: A light has no direction (`light_degenerate`).
@@ -77,7 +82,7 @@ def lighting(
     if views:
         uniforms |= _shadow_uniforms(views, len(rows), eye)
     uniforms |= cookies.uniforms(eye)
-    return Lighting(uniforms, tuple(views), cookies)
+    return Lighting(uniforms, tuple(views), cookies, visibility)
 
 
 def _shadow_uniforms(

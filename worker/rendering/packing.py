@@ -44,6 +44,7 @@ PLACES: Mapping[str, Place] = {
     "position": Place(4, 0, 3),
     "material_id": Place(4, 3, 4),
     "tangent": Place(5, 0, 3),
+    "light_visibility": Place(5, 3, 4),
     "uv": Place(6, 0, 2),
     "texel_density": Place(6, 2, 3),
     "footprint": Place(7, 0, 4),

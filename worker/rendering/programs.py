@@ -15,7 +15,7 @@ from worker.rendering.gl_context import GL, floats
 _DECLARATION = re.compile(r"^uniform (?P<type>\w+) (?P<names>[^;]+);", re.MULTILINE)
 _NAME = re.compile(r"(?P<name>\w+)(?:\[(?P<count>\d+)\])?")
 _FLOATS = {"float": 1, "vec2": 2, "vec3": 3, "vec4": 4, "mat3": 9, "mat4": 16}
-_WHOLE = ("int", "bool", "sampler2D", "sampler2DArray", "samplerBuffer")
+_WHOLE = ("int", "bool", "sampler2D", "sampler3D", "samplerCube", "sampler2DArray", "samplerBuffer")
 PROGRAMS_MAX = 64
 """With its compiled variants a program takes about 2 MB, and maps combine without end."""
 

@@ -8,6 +8,7 @@ lights.
 
 import time
 from collections.abc import Callable, Hashable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,7 @@ from pyrender.constants import RenderFlags
 
 from worker.geometry.transforms import Matrix, rigid_inverse
 from worker.rendering.chunks import Source
-from worker.rendering.fragment import background_sources, surface_sources
+from worker.rendering.fragment import background_sources, sky_sources, surface_sources
 from worker.rendering.frame import Frame, TraversedProgram
 from worker.rendering.gl_context import GL, GLContext, check, floats
 from worker.rendering.layer_uniforms import LayerUniforms
@@ -26,6 +27,7 @@ from worker.rendering.pyrender_scene import FlatScene, PlacedNode, SurfacePrimit
 from worker.rendering.shading import Shading, is_lit
 from worker.rendering.shading_layout import LightLayout
 from worker.rendering.shadow_maps import ShadowMaps
+from worker.rendering.sky import Sky
 from worker.rendering.targets import Target
 from worker.rendering.texture_units import COOKIE_UNIT, SHADOW_UNIT, TextureUnits
 
@@ -89,6 +91,7 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
             corner=np.rint((picture - (1 + tile_from_picture[:2, 3]) * size) / 2),
             picture=np.rint(picture / supersampling),
             supersampling=supersampling,
+            tile_from_picture=tile_from_picture,
             blending=False,
         )
         self._units.forget()
@@ -138,6 +141,8 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         assert self._frame is not None
         if isinstance(scene.background, Shading):
             self._draw_background(scene.background)
+        elif isinstance(scene.background, Sky):
+            self._draw_sky(scene, scene.background)
         elif scene.background is not None:
             GL.glClearBufferfv(GL.GL_COLOR, 0, floats([*scene.background, 1.0]))
         return None, None
@@ -150,7 +155,12 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
     ) -> Program:
         assert self._frame is not None
         layout, layered = primitive.material.shading.layout, self._frame.target.layered
-        lights = self._frame.lights.layout if is_lit(layout.technique) else LightLayout()
+        lights = LightLayout()
+        if is_lit(layout.technique):
+            sky = self._frame.scene.sky
+            lights = replace(self._frame.lights.layout, sky=sky.kind if sky else "none")
+        elif self._frame.lights.layout.visibility:
+            lights = self._frame.lights.layout
         plane = primitive.mesh.tile is not None
         return self._linked(
             (layout, lights, layered, plane),
@@ -169,6 +179,8 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
                 program.set(name, value)
             if self._frame.lights.views:
                 program.set("shadow_maps", SHADOW_UNIT)
+            if scene.sky is not None:
+                self._units.bind_sky(program, scene.sky)
             for unit, name in enumerate(self._frame.lights.layout.samplers, COOKIE_UNIT):
                 program.set(name, unit)
 
@@ -176,18 +188,12 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         self, primitive: SurfacePrimitive, pose: Matrix, program: Program, flags: int
     ) -> None:
         assert self._frame is not None
-        scene = self._frame.scene
         self._frame.place(program, primitive)
         self._units.bind(program, primitive.material.shading)
         if self._frame.target.layered:
             program.set("object_id", primitive.thing)
             program.set("material_id", primitive.material.number)
-            self._layers.set(
-                program,
-                scene.view.world_from_camera,
-                primitive.mesh,
-                self._frame.supersampling,
-            )
+            self._layers.set(program, self._frame, primitive.mesh)
         if primitive.material.shading.layout.alpha_mode == "blend" and not self._frame.blending:
             self._begin_blending()
         start = time.perf_counter()
@@ -230,6 +236,22 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         program.set("picture_size", self._frame.picture)
         program.set("samples_per_side", self._frame.supersampling)
         self._units.bind(program, shading)
+        self._cover(program)
+
+    def _draw_sky(self, scene: FlatScene, sky: Sky) -> None:
+        assert self._frame is not None
+        program = self._linked(("sky", sky.kind), lambda: sky_sources(sky.kind))
+        program.bind()
+        self._units.bind_sky(program, sky)
+        rays = scene.view.rays(self._frame.tile_from_picture)
+        for name, ray in zip(("ray_middle", "ray_across", "ray_up"), rays, strict=True):
+            program.set(name, ray)
+        program.set("tile_size", (self.viewport_width, self.viewport_height))
+        self._cover(program)
+
+    def _cover(self, program: Program) -> None:
+        """Draw over the whole tile, behind everything."""
+        assert self._frame is not None
         start = time.perf_counter()
         self._no_vertices = self._no_vertices or int(GL.glGenVertexArrays(1))
         self._frame.target.write(averaged=False, nearest=False)

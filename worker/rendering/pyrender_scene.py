@@ -14,6 +14,7 @@ from worker.rendering.gl_context import GL, floats
 from worker.rendering.infinite_planes import eye_side
 from worker.rendering.programs import Program
 from worker.rendering.shading import Shading
+from worker.rendering.sky import Sky
 from worker.rendering.vertex_arrays import VertexArray
 
 _FINE = 1 << 17
@@ -37,6 +38,18 @@ class View:
     clip_from_camera: Matrix
     orthographic: bool
 
+    def rays(self, tile_from_picture: Matrix) -> tuple[NDArray[np.float64], ...]:
+        """Return where the eye looks: through a tile's middle, and from there to right and top.
+
+        The directions through other places add up. With parallel views there is but one.
+        """
+        axes = self.world_from_camera[:3, :3]
+        if self.orthographic:
+            return -axes[:, 2], np.zeros(3), np.zeros(3)
+        clip_from_ray = (tile_from_picture @ self.clip_from_camera)[[0, 1, 3], :3]
+        across, up, middle = (axes @ np.linalg.inv(clip_from_ray)).T
+        return middle, across, up
+
 
 @dataclass(frozen=True, slots=True)
 class Drawable:
@@ -59,8 +72,9 @@ class Drawable:
     casts_shadows: bool
 
 
-Background: TypeAlias = Shading | tuple[float, ...]
-"""What is seen where nothing is: a mapped colour over the whole picture, or a linear colour."""
+Background: TypeAlias = Shading | Sky | tuple[float, ...]
+"""What is seen where nothing is: a mapped colour over the whole picture, the environment, or a
+linear colour."""
 
 
 class SurfaceMaterial(pyrender.Material):  # type: ignore[misc]
@@ -158,6 +172,7 @@ class FlatScene(pyrender.Scene):  # type: ignore[misc]
 
     Attributes:
         background: What is behind everything.
+        sky: The light from all around, if there is any but the even one.
         view: The eye.
         in_order: Its nodes as they are drawn.
         casters: Those that keep light away.
@@ -168,12 +183,17 @@ class FlatScene(pyrender.Scene):  # type: ignore[misc]
     """
 
     def __init__(
-        self, drawables: Sequence[Drawable], view: View, background: Background | None
+        self,
+        drawables: Sequence[Drawable],
+        view: View,
+        background: Background | None,
+        sky: Sky | None,
     ) -> None:
         """Put drawables and the eye into a scene of pyrender's."""
         super().__init__(bg_color=np.zeros(4), ambient_light=np.zeros(3))
         self._drawables = drawables
         self.background = background
+        self.sky = sky
         self.view = view
         camera = MatrixCamera(view.clip_from_camera)
         self.add_node(PlacedNode(view.world_from_camera, camera=camera))

@@ -4,7 +4,7 @@ import atexit
 import functools
 import time
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Self, TypeAlias
 
 import numpy as np
@@ -23,11 +23,13 @@ from worker.rendering.gl_context import GLContext, check
 from worker.rendering.lighting import Lighting, lighting
 from worker.rendering.packing import PICTURE, PLACES, SHADING_DIFFERENCE
 from worker.rendering.pixel_filters import apron
+from worker.rendering.placing import ModelReader
 from worker.rendering.pyrender_adapter import FloatRenderer
 from worker.rendering.pyrender_scene import FlatScene
-from worker.rendering.scene_builder import ModelReader, SceneBuilder, TextureMaker
+from worker.rendering.scene_builder import SceneBuilder
 from worker.rendering.shading import surface_fields
 from worker.rendering.targets import Target, TargetPair
+from worker.rendering.texture_maker import TextureMaker
 from worker.rendering.tiles import (
     LAYERED_SAMPLES_MAX,
     SAMPLES_MAX,
@@ -119,13 +121,19 @@ def render(
     built = engine.builder.build(
         scene, width / height, textures, models, tangents="tangent" in output.layers
     )
-    placed = FlatScene(built.drawables, built.view, built.background)
+    placed = FlatScene(built.drawables, built.view, built.background, built.sky)
     eye = built.view.world_from_camera[:3, 3]
-    lights = lighting(built.lights, eye, built.cookies, placed.corners)
+    lights = lighting(
+        built.lights,
+        eye,
+        built.cookies,
+        placed.corners,
+        visibility="light_visibility" in output.layers,
+    )
     timings = {"build_ms": _milliseconds(time.perf_counter() - start)}
     counts = {"triangles": built.triangles, "texels": built.texels}
     drawn = _bands(engine, placed, lights, output, timings, report)
-    return Rendering(drawn, counts, timings, {}, built.warnings)
+    return Rendering(drawn, counts, timings, built.report, built.warnings)
 
 
 def _bands(
@@ -236,8 +244,10 @@ def warm(report: Report, textures: TextureMaker) -> None:
         textures: Makes the tables that surfaces bring themselves; they are kept.
     """
 
-    def maker(spec: TextureSpec, meaning: Meaning) -> Image:
-        return _grey(meaning) if spec == _GREY else textures(spec, meaning)
+    def picture(spec: TextureSpec, meaning: Meaning, proportion: tuple[int, int] = (1, 1)) -> Image:
+        return _grey(meaning) if spec == _GREY else textures.picture(spec, meaning, proportion)
+
+    maker = replace(textures, picture=picture)
 
     output = RenderOutput(size=[16, 16], supersampling=2)
     surfaces = list(_typical())

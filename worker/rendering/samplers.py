@@ -83,5 +83,6 @@ def _new_sampler(sampling: Sampling, border: tuple[float, ...]) -> int:
     GL.glSamplerParameteri(sampler, GL.GL_TEXTURE_MIN_FILTER, minify)
     GL.glSamplerParameteri(sampler, GL.GL_TEXTURE_WRAP_S, _MODE[sampling.wrap[0]])
     GL.glSamplerParameteri(sampler, GL.GL_TEXTURE_WRAP_T, _MODE[sampling.wrap[1]])
+    GL.glSamplerParameteri(sampler, GL.GL_TEXTURE_WRAP_R, _MODE[sampling.wrap[1]])
     GL.glSamplerParameterfv(sampler, GL.GL_TEXTURE_BORDER_COLOR, floats(border))
     return sampler

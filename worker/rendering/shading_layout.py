@@ -9,6 +9,12 @@ from worker.rendering.calls import Call
 from worker.rendering.samplers import Sampling
 from worker.rendering.textures import TextureFormat
 
+SkyKind = Literal["none", "latlong", "cube"]
+"""The chunks of shaders/skies."""
+
+SPACE_FILTERS: tuple[Filter, ...] = ("nearest", "bilinear", "trilinear")
+"""Filters of volumes and cube maps; any other one is anisotropic there."""
+
 
 @dataclass(frozen=True, slots=True)
 class Parameter:
@@ -20,18 +26,37 @@ class Parameter:
 
 
 @dataclass(frozen=True, slots=True)
+class FormulaLayout:
+    """A texture worked out at the fragment.
+
+    Attributes:
+        chunks: Which it calls.
+        declarations: Of its uniforms.
+        call: An expression of place, across_x and across_y.
+        solid: Whether it fills space.
+    """
+
+    chunks: tuple[str, ...]
+    declarations: tuple[str, ...]
+    call: str
+    solid: bool
+
+
+@dataclass(frozen=True, slots=True)
 class LookupLayout:
     """One reading of a picture; parameters that share a lookup cost one.
 
     Attributes:
         calls: Which say where: that of the coordinates, then that of the layout, if there is one.
         filter: How texels become a pixel.
-        picture: Which unit is read.
+        picture: Which unit is read; none where there is a formula.
+        formula: What is worked out in its place.
     """
 
     calls: tuple[Call, ...]
     filter: Filter
-    picture: int
+    picture: int | None
+    formula: FormulaLayout | None = None
 
     @property
     def returns(self) -> str:
@@ -62,10 +87,14 @@ class LightLayout:
     Attributes:
         shadows: Whether any casts shadows.
         cookies: The pictures before them.
+        visibility: Whether what comes through is told as a layer, of surfaces that need none too.
+        sky: Which chunk reads the light from all around.
     """
 
     shadows: bool = False
     cookies: tuple[CookieLayout, ...] = ()
+    visibility: bool = False
+    sky: SkyKind = "none"
 
     @property
     def samplers(self) -> tuple[str, ...]:

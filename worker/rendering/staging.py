@@ -73,11 +73,16 @@ def view_of(
 
 
 def lights_of(
-    lights: Sequence[Light] | None, models: Sequence[PlacedModel], world_from_camera: Matrix
+    lights: Sequence[Light] | None,
+    models: Sequence[PlacedModel],
+    world_from_camera: Matrix,
+    *,
+    surrounded: bool,
 ) -> tuple[Sequence[Light], Sequence[str]]:
     """Return what shines, in world axes, and what there is to warn of.
 
-    One model brings no more lights than a shader has room for; many together may.
+    Scenes `surrounded` by an environment need no studio. One model brings no more lights than a
+    shader has room for; many together may.
     """
     if lights is not None:
         return lights, ()
@@ -86,6 +91,8 @@ def lights_of(
     ]
     if len(brought) > LIGHTS_MAX:
         return brought[:LIGHTS_MAX], (f"only the first {LIGHTS_MAX} lights shine",)
+    if surrounded:
+        return brought, ()
     return brought or lamp(world_from_camera), ()
 
 

@@ -5,6 +5,7 @@ from worker.rendering.lookups import Picture
 from worker.rendering.programs import Program
 from worker.rendering.samplers import SamplerCache
 from worker.rendering.shading import Shading
+from worker.rendering.sky import Sky
 
 COOKIE_UNIT = 26
 """The first of four. Maps take the first 24 units, a surface's tables the next ones, the faces of
@@ -39,12 +40,16 @@ class TextureUnits:
                 program.set(name, unit)
                 self.put(unit, picture)
 
+    def bind_sky(self, program: Program, sky: Sky) -> None:
+        """Give the bound program an environment, in units that no picture takes."""
+        sky.bind(program, self._samplers)
+
     def put(self, unit: int, picture: Picture) -> None:
         """Let a unit hold a picture."""
         if self._bound.get(unit) != picture:
             self._bound[unit] = picture
             GL.glActiveTexture(GL.GL_TEXTURE0 + unit)
-            GL.glBindTexture(GL.GL_TEXTURE_2D, picture.texture.number)
+            GL.glBindTexture(picture.texture.target, picture.texture.number)
             GL.glBindSampler(unit, self._samplers.get(picture.sampling, picture.border))
 
     def trim(self) -> None:

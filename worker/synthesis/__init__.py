@@ -3,14 +3,14 @@
 Every technique module has
 
     def synthesize(
-        spec, size: tuple[int, int], inputs: Mapping[str, Image], report: Report
+        spec, size: tuple[int, int], inputs: Mapping[str, Image], report: Progress
     ) -> Image | Outcome
 
 with size = (width, height), `inputs` the pictures that the spec's fields hold, by field name,
 made at the same size unless the spec's `inner_size` says otherwise, and `report` to be told the
-share that is done and the step, where there are steps. It is a pure function: no clock, no state,
-inputs are never modified. An Outcome is a picture with layers beside it, or with something to say
-of it.
+share that is done and the step, where there are steps, and what there is to see of it. It is a pure
+function: no clock, no state, inputs are never modified. An Outcome is a picture with layers beside
+it, or with something to say of it.
 One whose spec is `solid` but not `pointwise` also has
 
     def synthesize_volume(
@@ -34,7 +34,7 @@ import pkgutil
 from collections import Counter
 from typing import TYPE_CHECKING, cast
 
-from api_schemas.families import Meaning, TextureSpec
+from api_schemas.families import Meaning, PresetSpec, TextureSpec
 from api_schemas.language import FAMILIES
 from api_schemas.maps import DATA
 from api_schemas.parameters import ParameterMap
@@ -78,6 +78,7 @@ def outcome(
     load: Load,
     meaning: Meaning = "colour",
     report: Report = silent,
+    show: Callable[[Image], None] | None = None,
 ) -> Outcome:
     """Make the picture of a texture, with its layers and what there is to say of it.
 
@@ -91,6 +92,7 @@ def outcome(
             that is read as colour or as data.
         meaning: Of the slot that the texture itself is in.
         report: Told the finished part, 0..1, and the technique or its step.
+        show: Given what there is to see of the texture itself while it is made.
 
     Raises:
         WorkerError: Whatever `load` or a technique raises.
@@ -98,6 +100,7 @@ def outcome(
     uses = Counter(_sized_keys(spec, meaning, size))
     shared: dict[SizedKey, Outcome] = {}
     done = 0
+    top = spec
 
     def make(spec: TextureSpec, meaning: Meaning, size: Size) -> Outcome:
         nonlocal done
@@ -110,8 +113,10 @@ def outcome(
             inputs["asset"] = load(spec, meaning)
         before = done
 
-        def told(share: float, step: str) -> None:
+        def told(share: float, step: str, preview: Image | None = None) -> None:
             report((before + share) / len(uses), step)
+            if show is not None and preview is not None and spec is top:
+                show(preview)
 
         told(0.0, spec.technique)
         made = _module(spec.technique).synthesize(spec, size, inputs, told)
@@ -175,6 +180,8 @@ def closed_form(
         solid: Whether it is asked for in space, else in the plane w = 0.
         meaning: Of the slot that the texture itself is in.
     """
+    if isinstance(spec, PresetSpec):
+        return closed_form(spec.composed(), solid=solid, meaning=meaning)
     module = _module(spec.technique)
     parameters = module.closed_form(spec, solid=solid) if hasattr(module, "closed_form") else None
     if parameters is None:
@@ -219,6 +226,8 @@ def _fill(
 
 def _slots(spec: TextureSpec, meaning: Meaning) -> dict[str, tuple[TextureSpec, Meaning]]:
     """Return the textures directly within a spec, each with the meaning of its slot."""
+    if isinstance(spec, PresetSpec):
+        return {"composed": (spec.composed(), meaning)}
     slots = {}
     for name, field in type(spec).model_fields.items():
         value = getattr(spec, name)

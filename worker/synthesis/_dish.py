@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from api_schemas.dishes import DishSpec
+    from api_schemas.dishes import CellsSpec, DishSpec
     from worker.images.image import Image
 
 Cells: TypeAlias = "NDArray[np.float64]"
@@ -55,7 +55,7 @@ def _spread_row(after: Row, above: Row, c: Row, below: Row, rates: Row, time_ste
         after[x] = c[x] + time_step * rates[x] * (around - 4.0 * c[x])
 
 
-def parameter_rows(spec: DishSpec, inputs: Mapping[str, Image]) -> dict[str, Rows]:
+def parameter_rows(spec: CellsSpec, inputs: Mapping[str, Image]) -> dict[str, Rows]:
     """Return every parameter by name, from its number or from the picture of its texture."""
     width = spec.size[0]
     rows = {}
@@ -70,7 +70,7 @@ def parameter_rows(spec: DishSpec, inputs: Mapping[str, Image]) -> dict[str, Row
     return rows
 
 
-def channels(spec: DishSpec, image: Image) -> NDArray[np.float64]:
+def channels(spec: CellsSpec, image: Image) -> NDArray[np.float64]:
     """Return a picture, brought to the size of the dish, as (channels, height, width)."""
     pixels = resample(image.pixels, (spec.size[0], spec.size[1]))
     return np.ascontiguousarray(wide(pixels).transpose(2, 0, 1))

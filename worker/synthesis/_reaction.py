@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
@@ -16,6 +16,8 @@ from worker.synthesis.outcome import Outcome
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
+
+    from numpy.typing import NDArray
 
     from api_schemas.dishes import DishSpec, ReactionSpec
     from worker.stages import Report
@@ -123,7 +125,7 @@ def outcome_of(reaction: Reaction, react: React, size: tuple[int, int], report: 
     )
 
 
-def told(spec: DishSpec, cells: Cells, taken: int, change: float) -> dict[str, object]:
+def told(spec: DishSpec, cells: NDArray[Any], taken: int, change: float) -> dict[str, object]:
     """Return what the report says of a dish."""
     inside = cells[:, 1:-1, 1:-1]
     return {

@@ -28,21 +28,28 @@ UP = np.array([0.25, 0.75, 0.75, 0.25], np.float32)
 _RADIUS = len(DOWN) // 2
 
 
-def band(seed: int, index: int, side: int) -> Rows:
-    """Return the coefficients of a band, (side, side) for an even side.
+def band(seed: int, index: int, side: int, axes: int = 2) -> Rows:
+    """Return the coefficients of a band, of an even side along each of two or three axes.
 
     The grid shifted by an odd number of half a side is added: the noise's variance at its grid
     points differs from that between them, and the sum evens that out.
     """
-    fine = white_noise(seed, index, side)
-    detail = fine - _coarse(_coarse(fine).T).T
+    fine = white_noise(seed, index, side, axes)
+    coarse = fine
+    for _ in range(axes):
+        # Each time the last axis becomes the first, so in the end they are in order
+        coarse = np.moveaxis(_coarse(coarse.reshape(-1, side)).reshape(fine.shape), -1, 0)
+    detail = fine - coarse
     shift = side // 2 + (side // 2 + 1) % 2
-    return np.ascontiguousarray(detail + np.roll(detail, (-shift, -shift), (0, 1)))
+    return np.ascontiguousarray(detail + np.roll(detail, (-shift,) * axes, tuple(range(axes))))
 
 
-def white_noise(seed: int, use: int, side: int) -> Rows:
-    """Return nearly Gaussian numbers of mean 0 and variance 1, (side, side), from sums of four."""
-    quarters = hashes(seed, use, side * side).view(np.uint16).reshape(side, side, 4)
+def white_noise(seed: int, use: int, side: int, axes: int = 2) -> Rows:
+    """Return nearly Gaussian numbers of mean 0 and variance 1, side along each axis.
+
+    Each is a sum of four.
+    """
+    quarters = hashes(seed, use, side**axes).view(np.uint16).reshape(*[side] * axes, 4)
     sums: NDArray[np.int32] = quarters.sum(axis=-1, dtype=np.int32) - 2 * 65535
     deviation = np.sqrt((65536.0**2 - 1) / 3)
     numbers: Rows = (sums / deviation).astype(np.float32)

@@ -28,16 +28,22 @@ def synthesize(
     image = inputs["input"]
     if not any(spec.radius):
         return image
-    across = _fade(np.fft.rfftfreq(image.width, 1 / image.width), spec.radius[0])
-    down = _fade(np.fft.fftfreq(image.height, 1 / image.height), spec.radius[1])
     pixels = np.empty(image.pixels.shape, np.float32)
     for channel in range(image.channels):
         values = wide(image.pixels[..., channel])
-        waves = np.fft.rfft2(values)
-        waves *= down[:, np.newaxis] * across
-        smooth = np.fft.irfft2(waves, values.shape)
-        pixels[..., channel] = held(np.clip(smooth, values.min(), values.max()))
+        pixels[..., channel] = held(smooth(values, (spec.radius[0], spec.radius[1])))
     return Image(pixels, image.meaning)
+
+
+def smooth(values: NDArray[np.float64], radius: tuple[float, float]) -> NDArray[np.float64]:
+    """Return (height, width) numbers smoothed by deviations along u and v in tiles."""
+    height, width = values.shape
+    across = _fade(np.fft.rfftfreq(width, 1 / width), radius[0])
+    down = _fade(np.fft.fftfreq(height, 1 / height), radius[1])
+    waves = np.fft.rfft2(values)
+    waves *= down[:, np.newaxis] * across
+    smoothed = np.fft.irfft2(waves, values.shape)
+    return np.clip(smoothed, values.min(), values.max())
 
 
 def _fade(swings: NDArray[np.floating[Any]], radius: float) -> NDArray[np.float64]:

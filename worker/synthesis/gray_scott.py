@@ -1,7 +1,7 @@
 """Reaction and diffusion of two chemicals (Gray and Scott, 1984; patterns by Pearson, 1993).
 
-A dish of grid cells that joins its opposite edges; a step is a unit of time, a cell one of length.
-Diffusion is explicit with the five-point Laplacian, the reaction takes u from the end of the step:
+A step is a unit of time, a cell of the dish one of length. Diffusion is explicit with the
+five-point Laplacian, the reaction takes u from the end of the step:
 
     u' = (u + diffusion_u Lap u + feed) / (1 + feed + v^2)
     v' = v + diffusion_v Lap v + u' v^2 - (feed + kill) v
@@ -12,7 +12,8 @@ kill are 0. Within the bounds of the parameters, diffusion_u <= 1/4 and 4 diffus
 larger of its start and 1 + feed per cell: every choice of parameters stays finite, which an
 explicit reaction does not promise.
 
-It starts at rest, u = 1 and v = 0, but for square drops with u = 1/2 and v = 1/4, disturbed by 1 %.
+It starts at rest, u = 1 and v = 0, but for square drops with u = 1/2 and v = 1/4, disturbed by 1 %,
+or where a mask says.
 """
 
 from __future__ import annotations
@@ -21,46 +22,59 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from api_schemas.dishes import mapped
 from api_schemas.textures.gray_scott import GrayScottSpec
 from worker.images.image import Image
-from worker.numba_kernel import kernel, parallel_kernel, prange
 from worker.stages import silent
 from worker.synthesis._counter_hash import uniforms
+from worker.synthesis._dish import channels, parameter_rows
+from worker.synthesis._gray_scott_steps import BORDERS, STEPS_AT_ONCE, advance
+from worker.synthesis._reaction import told
 from worker.synthesis._resample import resample
+from worker.synthesis.outcome import Outcome
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from numpy.typing import NDArray
 
+    from worker.stages import Report
+    from worker.synthesis._gray_scott_steps import Rates
+
     Field = NDArray[np.float32]
 
-    from worker.stages import Report
-
 _DROP_SIDE = 12
-_BLOCK_ROWS = 16
+_PASSES_PER_LOOK = 8
 
 
 def synthesize(
     spec: GrayScottSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Report
-) -> Image:
+) -> Outcome:
     """Let the dish react and bring it to (width, height): one channel of data."""
-    u, v = react(*initial_dish(spec), spec)
-    pixels = (u if spec.chemical == "u" else v)[..., np.newaxis]
-    return Image(resample(pixels, size), spec.meaning)
+    cells, taken, change = run(spec, *initial_dish(spec, inputs), rates_of(spec, inputs), report)
+    layers = {
+        name: Image(resample(cells[i, 1:-1, 1:-1, np.newaxis], size), spec.meaning)
+        for i, name in enumerate(spec.layers)
+    }
+    return Outcome(layers[spec.chemical], layers, told(spec, cells, taken, change))
 
 
-def initial_dish(spec: GrayScottSpec) -> tuple[Field, Field]:
+def initial_dish(
+    spec: GrayScottSpec, inputs: Mapping[str, Image] | None = None
+) -> tuple[Field, Field]:
     """Return u and v, (height, width) each, before the first step."""
+    inputs = inputs or {}
     width, height = spec.size
     u, v = np.ones((height, width), np.float32), np.zeros((height, width), np.float32)
-    lefts = (uniforms(spec.seed, 0, spec.drops) * width).astype(np.int64)
-    tops = (uniforms(spec.seed, 1, spec.drops) * height).astype(np.int64)
-    across = np.arange(min(_DROP_SIDE, width))
-    down = np.arange(min(_DROP_SIDE, height))[:, np.newaxis]
-    for left, top in zip(lefts, tops, strict=True):
-        u[(top + down) % height, (left + across) % width] = 0.5
-        v[(top + down) % height, (left + across) % width] = 0.25
+    if "start" in inputs:
+        # What is outside of 0..1 no chemical is
+        given = np.clip(channels(spec, inputs["start"]), 0, 1).astype(np.float32)
+        return given[0], given[1] if len(given) > 1 else v
+    if "mask" in inputs:
+        share = np.clip(channels(spec, inputs["mask"])[0], 0, 1).astype(np.float32)
+        u, v = 1 - share / 2, share / 4
+    else:
+        _add_drops(u, v, spec)
     disturbed = v > 0
     for use, chemical in ((2, u), (3, v)):
         noise = 0.99 + 0.02 * uniforms(spec.seed, use, width * height).reshape(height, width)
@@ -68,64 +82,71 @@ def initial_dish(spec: GrayScottSpec) -> tuple[Field, Field]:
     return u, v
 
 
+def rates_of(spec: GrayScottSpec, inputs: Mapping[str, Image]) -> Rates:
+    """Return feed, feed + kill and both diffusions, as numbers or, if one is a map, as rows."""
+    rows = parameter_rows(spec, inputs)
+    feed, across, down = (rows[name] for name in ("feed", "diffusion_u", "diffusion_v"))
+    rates = (feed, feed + rows["kill"], across, down)
+    if any(mapped(spec, name) for name in spec.parameters):
+        return tuple(np.ascontiguousarray(rate, np.float32) for rate in rates)
+    return tuple(np.float32(rate[0, 1]) for rate in rates)
+
+
+def run(
+    spec: GrayScottSpec, u: Field, v: Field, rates: Rates, report: Report = silent
+) -> tuple[Field, int, float]:
+    """Take the steps from u and v, (height, width) each.
+
+    Returns:
+        Both with a rim, (2, height + 2, width + 2); how many steps were taken; how fast the fastest
+        cell changed between the last two looks.
+    """
+    before = np.pad(np.stack([u, v], axis=1), ((1, 1), (0, 0), (1, 1)), mode="wrap")
+    border = BORDERS[spec.border]
+    if spec.border == "fixed":
+        for chemical, rest in enumerate((1, 0)):
+            before[[0, -1], chemical] = before[:, chemical, [0, -1]] = rest
+    elif spec.border == "no_flux":
+        before[..., 0], before[..., -1] = before[..., 1], before[..., -2]
+    after = before.copy()
+    taken, change = 0, 0.0
+    while taken < spec.steps:
+        seen = before.copy()
+        start = taken
+        for _ in range(_PASSES_PER_LOOK):
+            steps = min(STEPS_AT_ONCE, spec.steps - taken)
+            if steps:
+                advance(after, before, rates, steps, border)
+                before, after, taken = after, before, taken + steps
+        report(taken / spec.steps, f"step {taken}")
+        change = float(np.abs(before - seen)[1:-1, :, 1:-1].max()) / (taken - start)
+        if change < spec.still_below:
+            break
+    return before.transpose(1, 0, 2), taken, change
+
+
 def react(u: Field, v: Field, spec: GrayScottSpec) -> tuple[Field, Field]:
-    """Return u and v, (height, width) each, `spec.steps` steps later."""
-    us, vs = np.stack([u, u]), np.stack([v, v])
-    rates = np.array(
-        [spec.feed, spec.feed + spec.kill, spec.diffusion_u, spec.diffusion_v], np.float32
-    )
-    _run(us, vs, spec.steps, rates)
-    return us[spec.steps % 2], vs[spec.steps % 2]
+    """Return u and v, (height, width) each, `spec.steps` steps later, without maps."""
+    cells, _, _ = run(spec, u, v, rates_of(spec, {}))
+    return cells[0, 1:-1, 1:-1], cells[1, 1:-1, 1:-1]
 
 
 def warm() -> None:
-    """Compile the kernels."""
+    """Compile the kernels, for numbers and for maps."""
     spec = GrayScottSpec(technique="gray_scott", size=[16, 16], steps=1)
+    numbers = rates_of(spec, {})
+    rows = tuple(np.full((1, 18), rate, np.float32) for rate in numbers)
+    for rates in (numbers, rows):
+        run(spec, *initial_dish(spec), rates)
     synthesize(spec, (8, 8), {}, silent)
 
 
-@parallel_kernel
-def _run(us: Field, vs: Field, steps: int, rates: Field) -> None:
-    """Step to and fro between the two halves of (2, height, width) fields."""
-    height = us.shape[1]
-    blocks = (height + _BLOCK_ROWS - 1) // _BLOCK_ROWS
-    for step in range(steps):
-        u, v, u_next, v_next = us[step % 2], vs[step % 2], us[1 - step % 2], vs[1 - step % 2]
-        for block in prange(blocks):
-            for row in range(block * _BLOCK_ROWS, min((block + 1) * _BLOCK_ROWS, height)):
-                above, below = (row - 1) % height, (row + 1) % height
-                _step_u(u_next[row], u[above], u[row], u[below], v[row], rates[0], rates[2])
-                _step_v(v_next[row], v[above], v[row], v[below], u_next[row], rates[1], rates[3])
-
-
-@kernel
-def _step_u(
-    after: Field, above: Field, u: Field, below: Field, v: Field, feed: float, diffusion: float
-) -> None:
-    one, four = np.float32(1), np.float32(4)
-    width = len(u)
-    for x in range(1, width - 1):
-        spread = diffusion * (above[x] + below[x] + u[x - 1] + u[x + 1] - four * u[x])
-        after[x] = (u[x] + spread + feed) / (one + feed + v[x] * v[x])
-    for x in (0, width - 1):
-        right = u[(x + 1) % width]
-        spread = diffusion * (above[x] + below[x] + u[x - 1] + right - four * u[x])
-        after[x] = (u[x] + spread + feed) / (one + feed + v[x] * v[x])
-
-
-@kernel
-def _step_v(
-    after: Field, above: Field, v: Field, below: Field, u: Field, loss: float, diffusion: float
-) -> None:
-    four, zero, nothing = np.float32(4), np.float32(0), np.float32(1e-15)
-    width = len(v)
-    # Traces are cleared away: the numbers below float32's normal ones are slow to compute with
-    for x in range(1, width - 1):
-        spread = diffusion * (above[x] + below[x] + v[x - 1] + v[x + 1] - four * v[x])
-        value = v[x] + spread + u[x] * (v[x] * v[x]) - loss * v[x]
-        after[x] = value if value > nothing else zero
-    for x in (0, width - 1):
-        right = v[(x + 1) % width]
-        spread = diffusion * (above[x] + below[x] + v[x - 1] + right - four * v[x])
-        value = v[x] + spread + u[x] * (v[x] * v[x]) - loss * v[x]
-        after[x] = value if value > nothing else zero
+def _add_drops(u: Field, v: Field, spec: GrayScottSpec) -> None:
+    width, height = spec.size
+    lefts = (uniforms(spec.seed, 0, spec.drops) * width).astype(np.int64)
+    tops = (uniforms(spec.seed, 1, spec.drops) * height).astype(np.int64)
+    across = np.arange(min(_DROP_SIDE, width))
+    down = np.arange(min(_DROP_SIDE, height))[:, np.newaxis]
+    for left, top in zip(lefts, tops, strict=True):
+        u[(top + down) % height, (left + across) % width] = 0.5
+        v[(top + down) % height, (left + across) % width] = 0.25

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from api_schemas.textures.levels import LevelsSpec
+    from worker.closed_form import Parameter
     from worker.stages import Report
 
 
@@ -40,6 +41,16 @@ def synthesize(
         spec.clamp,
     )
     return Image(after, image.meaning)
+
+
+def closed_form(spec: LevelsSpec, *, solid: bool) -> Mapping[str, Parameter]:
+    """Return the ranges and the curve."""
+    return {
+        "input_range": np.array(spec.input_range, np.float32),
+        "output_range": np.array(spec.output_range, np.float32),
+        "exponent": 1 / spec.gamma,
+        "clamped": int(spec.clamp),
+    }
 
 
 def warm() -> None:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from api_schemas.families import TextureSpec
 from worker.images.image import Image
 from worker.numba_kernel import parallel_kernel, prange
 from worker.synthesis._channels import joint_meaning, matched
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from api_schemas.textures.mix import MixSpec
+    from worker.closed_form import Parameter
     from worker.stages import Report
 
 
@@ -31,6 +33,13 @@ def synthesize(
     pixels = np.empty(a.shape, np.float32)
     _fill_mix(pixels, np.array(a), np.array(b), np.array(shares))
     return Image(pixels, joint_meaning(inputs["a"], inputs["b"]))
+
+
+def closed_form(spec: MixSpec, *, solid: bool) -> Mapping[str, Parameter]:
+    """Return the amount, where it is a number."""
+    if isinstance(spec.amount, TextureSpec):
+        return {}
+    return {"amount_value": np.full(4, spec.amount, np.float32)}
 
 
 def warm() -> None:

@@ -279,3 +279,20 @@ def test_history_tells_how_long_it_will_take(make_client):
     assert second["eta_seconds"] is not None
     assert answers[2]["state"] == "queued"
     assert 0.3 <= answers[2]["eta_seconds"] <= 10
+
+
+def test_a_preview_is_seen_while_there_is_one(client, engine):
+    job = submit(client, size=[18, 19]).json()
+    missing = client.get(job["links"]["preview"])
+    assert (missing.status_code, missing.json()["code"]) == (404, "preview_missing")
+
+    known = engine.get("local", job["id"])
+    left = engine.result_path(known).with_name(f"{known.work_id}.preview.part")
+    left.write_bytes(b"half a picture")
+    seen = client.get(job["links"]["preview"])
+    assert (seen.status_code, seen.content) == (200, b"half a picture")
+    assert (seen.headers["content-type"], seen.headers["cache-control"]) == (
+        "image/png",
+        "no-store",
+    )
+    assert client.get(f"/v1/jobs/{'0' * 32}/preview").json()["code"] == "job_unknown"

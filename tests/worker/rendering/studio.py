@@ -11,11 +11,14 @@ from numpy.typing import NDArray
 from api_schemas.families import Meaning, TextureSpec
 from api_schemas.output import RenderOutput
 from api_schemas.scene import Scene
+from api_schemas.solid import worn_depth, worn_size
 from api_schemas.textures.image import ImageSpec
 from worker.geometry.mesh import Mesh
 from worker.images.image import Image
+from worker.images.volume import Volume
 from worker.models.model import Model, Part
-from worker.synthesis import synthesize
+from worker.rendering.texture_maker import TextureMaker
+from worker.synthesis import closed_form, synthesize, synthesize_volume
 
 Pixels = NDArray[np.float32]
 
@@ -28,6 +31,7 @@ class Studio:
         self._arrays: dict[str, Pixels] = {}
         self.models: dict[str, Model] = {}
         self.facts: dict[str, Any] = {}
+        self.found: dict[str, Any] = {}
         self.reports: list[tuple[float, str]] = []
 
     def texture(self, array: Any) -> dict[str, Any]:
@@ -43,12 +47,22 @@ class Studio:
         """The array of a texture spec."""
         return self._arrays[texture["asset"]]
 
-    def make(self, spec: TextureSpec, meaning: Meaning) -> Image:
+    def make(
+        self, spec: TextureSpec, meaning: Meaning, proportion: tuple[int, int] = (1, 1)
+    ) -> Image:
         """Give a texture's picture: the array behind an image, else as its technique makes it."""
         if isinstance(spec, ImageSpec):
             return Image(self._arrays[spec.asset], meaning)
-        size = (spec.surface_side, spec.surface_side)
-        return synthesize(spec, size, self.make, meaning)
+        return synthesize(spec, worn_size(spec, proportion), self.make, meaning)
+
+    @property
+    def maker(self) -> TextureMaker:
+        """What makes textures of arrays, and all others as their techniques do."""
+
+        def volume(spec: TextureSpec, meaning: Meaning) -> Volume:
+            return synthesize_volume(spec, (worn_depth(spec),) * 3, meaning)
+
+        return TextureMaker(self.make, volume, closed_form)
 
     def mesh(self, mesh: Mesh) -> dict[str, Any]:
         """Make a mesh spec of vertices."""
@@ -80,12 +94,13 @@ class Studio:
         rendering = self._render(
             Scene.model_validate_json(json.dumps(scene)),
             RenderOutput(size=list(size), supersampling=supersampling, layers=list(names)),
-            self.make,
+            self.maker,
             lambda mesh: self.models[mesh.asset],
             lambda fraction, stage: self.reports.append((fraction, stage)),
         )
         bands = list(rendering.bands)
         self.facts = rendering.timings | rendering.counts
+        self.found = rendering.report
         return {name: np.concatenate([band[name].pixels for band in bands]) for name in bands[0]}
 
     def poster(

@@ -14,7 +14,15 @@ from worker.images import image_io
 
 pytestmark = pytest.mark.gl
 
-EXAMPLES = ["cookies", "shadows"]
+EXAMPLES = [
+    "cookies",
+    "cut_out",
+    "gloss",
+    "light_map",
+    "material_map",
+    "occlusion",
+    "shadows",
+]
 
 
 @pytest.mark.golden

@@ -99,3 +99,35 @@ def test_what_is_no_number_still_gives_a_unit_normal(studio: Studio, bad: float)
     seen = seen_normals(studio, bump(studio, [bad, 0.0]))
 
     assert np.linalg.norm(seen[4, 4]) == pytest.approx(1, abs=1e-5)
+
+
+@pytest.mark.parametrize("frames", ["mikktspace", "averaged", "sphere"])
+def test_on_a_globe_bumps_tilt_along_parallels_and_meridians(studio: Studio, frames: str) -> None:
+    # T14, T15: towards the east along u and towards the north along v, seen at +z
+    ball = {"type": "sphere", "segments": 256, "rings": 128}
+    surface = bump(studio, [0.5, 0.25]) | {"tangents": frames}
+
+    seen = seen_normals(studio, surface, (65, 65), mesh=ball)[32, 32]
+
+    np.testing.assert_allclose(seen, unit([0.5, 0.25, 1.0]), atol=2e-2)
+    if frames == "sphere":
+        np.testing.assert_allclose(seen, unit([0.5, 0.25, 1.0]), atol=1e-5)
+
+
+def test_the_report_names_the_poles_of_a_globe_with_bumps(studio: Studio) -> None:
+    plain = {"mesh": {"type": "sphere"}, "surface": {"technique": "unlit"}}
+    bumpy = {**plain, "surface": {"technique": "unlit"} | bump(studio, [0.5, 0.25])}
+    nodes = [plain, {**bumpy, "surface": bumpy["surface"] | {"tangents": "sphere"}}]
+
+    studio.draw({"camera": CAMERA, "nodes": nodes})
+
+    (told,) = studio.found["frames"]
+    assert (told["object"], told["frames"], told["index_sum"]) == (2, "sphere", 2)
+    assert [item["index"] for item in told["singular"]] == [1, 1]
+    assert {tuple(item["position"]) for item in told["singular"]} == {(0, 1, 0), (0, -1, 0)}
+
+
+def test_where_nothing_tilts_along_u_nothing_is_told(studio: Studio) -> None:
+    seen_normals(studio, {"height": {"texture": {"technique": "perlin"}}})
+
+    assert studio.found == {}

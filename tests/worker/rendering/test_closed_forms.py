@@ -8,7 +8,7 @@ from api_schemas.language import FAMILIES, Texture
 from worker import synthesis
 from worker.closed_form import ClosedForm
 from worker.rendering.chunks import SHADERS
-from worker.synthesis import checkerboard, gardner, perlin, ramp, worley
+from worker.synthesis import checkerboard, gardner, marble, perlin, ramp, wood, worley
 from worker.synthesis._perlin_sums import KINDS
 
 TOLERANCE = 1e-5
@@ -87,6 +87,10 @@ BODIES = [
         for shown in ("unit", "signed")
     ],
 ]
+
+
+def form_of(body):
+    return synthesis.closed_form(spec(body), solid=True)
 
 
 def name_of(body):
@@ -178,6 +182,77 @@ def test_every_chunk_has_a_technique_that_can_tell_its_formula():
     assert chunks == {
         name for name in FAMILIES["textures"] if hasattr(synthesis._module(name), "closed_form")
     }
+
+
+@pytest.mark.gl
+@pytest.mark.parametrize("solid", [False, True], ids=["plane", "space"])
+@pytest.mark.parametrize("strength", [0.0, 12.0])
+def test_marble_is_bent_by_what_is_in_it(draw, solid, strength):
+    texture = spec({"technique": "marble", "veins": [3, -2, 5], "strength": strength})
+    form = synthesis.closed_form(texture, solid=solid)
+    axes, steps = (3, LEANING) if solid else (2, PIXEL)
+    where = places(axes)
+
+    shown = draw(form, where, steps)[:, 0]
+
+    bent = draw(form.inputs["turbulence"], where, steps)[:, 0].astype(np.float64)
+    points = where[:, :axes].astype(np.float64)
+    assert shown == pytest.approx(
+        marble.marble_at(texture, points, bent, steps[:, :axes]), abs=TOLERANCE
+    )
+
+
+@pytest.mark.gl
+@pytest.mark.parametrize("trunk", ["u", "v", "w"])
+def test_wood_is_disturbed_by_what_is_in_it(draw, trunk):
+    texture = spec({"technique": "wood", "trunk": trunk, "heart": [0.3, 0.8], "rings": 7.5})
+    form = synthesis.closed_form(texture, solid=True)
+    where = places(3) % 1
+    # Wide pixels, since float32 cannot tell on which side of a ring's hard edge a point lies
+    steps = PIXEL * 16
+
+    shown = draw(form, where, steps)[:, 0]
+
+    noise = draw(form.inputs["noise"], where, steps)[:, 0].astype(np.float64)
+    expected = wood.wood_at(texture, where.astype(np.float64), noise, 16 / 512)
+    # The edge is as steep as 1 over .23 of a ring, up to 10 rings from the heart: 10 * 2^-24 * 4.3
+    assert shown == pytest.approx(expected, abs=TOLERANCE)
+
+
+@pytest.mark.gl
+def test_levels_and_mixtures_are_what_the_same_numbers_give(draw):
+    noise, other = {"technique": "perlin"}, {"technique": "perlin", "seed": 4}
+    where = places(3)
+    first, second = (draw(form_of(body), where, PIXEL)[:, 0] for body in (noise, other))
+
+    leveled = {"input_range": [0.3, 0.6], "output_range": [2.0, -1.0], "gamma": 2.2}
+    stretched = draw(form_of({"technique": "levels", "input": noise, **leveled}), where, PIXEL)
+    mixed = draw(
+        form_of({"technique": "mix", "a": noise, "b": other, "amount": 0.25}), where, PIXEL
+    )
+    masked = draw(
+        form_of({"technique": "mix", "a": noise, "b": other, "amount": other}), where, PIXEL
+    )
+
+    share = np.clip((first.astype(np.float64) - 0.3) / 0.3, 0, 1) ** (1 / 2.2)
+    # A root is steep near 0: of what is below .001 of the range only the order is kept
+    usable = (share == 0) | (share > 0.05)
+    assert stretched[usable, 0] == pytest.approx((2 - 3 * share)[usable], abs=4 * TOLERANCE)
+    assert mixed[:, 0] == pytest.approx(0.75 * first + 0.25 * second, abs=TOLERANCE)
+    assert masked[:, 0] == pytest.approx((1 - second) * first + second**2, abs=TOLERANCE)
+
+
+@pytest.mark.gl
+@pytest.mark.parametrize("name", ["clouds", "fire", "granite"])
+def test_a_preset_has_the_formula_of_its_composition(draw, name):
+    preset = spec({"technique": name})
+    where = places(3)
+
+    shown = draw(synthesis.closed_form(preset, solid=True), where, PIXEL)
+
+    composed = draw(synthesis.closed_form(preset.composed(), solid=True), where, PIXEL)
+    assert (shown == composed).all()
+    assert shown[:, :3].std() > 0.05
 
 
 def test_what_has_no_formula_leaves_none_to_what_holds_it():

@@ -109,8 +109,8 @@ def test_coordinates_are_scaled_then_turned_then_shifted(studio: Studio) -> None
 
 
 def test_equal_lookups_are_made_once_and_equal_pictures_share_a_unit(studio: Studio) -> None:
-    from worker.rendering import scene_builder  # noqa: PLC0415  needs OpenGL
-    from worker.rendering.shading import shade  # noqa: PLC0415
+    from worker.rendering.shading import shade  # noqa: PLC0415  needs OpenGL
+    from worker.rendering.textures import Texture  # noqa: PLC0415
 
     spec = FAMILIES["surfaces"]["phong"].model_validate(
         {
@@ -122,7 +122,7 @@ def test_equal_lookups_are_made_once_and_equal_pictures_share_a_unit(studio: Stu
         }
     )
     studio.poster({"technique": "unlit"})
-    texture = scene_builder.Texture.upload([np.ones((1, 1, 1), np.float32)], "colour")
+    texture = Texture.upload([np.ones((1, 1, 1), np.float32)], "colour")
 
     layout = shade(spec, lambda *_, **__: texture).layout
 

@@ -183,7 +183,7 @@ def test_warm_draws_every_surface_and_leaves_nothing_to_compile(studio: Studio) 
     from worker.rendering.renderer import warm  # noqa: PLC0415  needs OpenGL
 
     reports: list[float] = []
-    warm(lambda fraction, stage: reports.append(fraction), studio.make)
+    warm(lambda fraction, stage: reports.append(fraction), studio.maker)
 
     studio.poster({"technique": "phong"})
     assert studio.facts["jit_ms"] == 0

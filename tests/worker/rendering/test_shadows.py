@@ -252,3 +252,23 @@ def test_shadows_do_not_end_where_a_tile_does(
 
     # As in test_renderer: positions are rounded anew, and an edge may turn a texel.
     assert (np.abs(cut - whole).max(axis=2) > 1e-4).mean() < 0.005
+
+
+@pytest.mark.parametrize("unlit", [False, True])
+def test_the_light_that_reaches_a_point_is_a_layer(studio: Studio, unlit: bool) -> None:
+    """Without a shadow 1, in it 0; of two lamps each counts by its irradiance on the point."""
+    surface = {"technique": "unlit"} if unlit else MATT
+    other = {"type": "directional", "direction": [0.0, -1.0, 0.0], "irradiance": 3.0}
+    away = {"type": "directional", "direction": [0.0, 1.0, 0.0], "irradiance": 4.0}
+    lit = scene(SUN | {"shadow": {"radius": 0, "bias": 0.1}}, surface)
+    lit["nodes"][0]["surface"] = surface
+    lit["lights"] += [other, away, {"type": "ambient"}]
+    layers = studio.layers(lit, ["light_visibility", "tangent"], (SIZE, SIZE))
+    seen, inside = layers["light_visibility"][..., 0], distance_to_edge(SUN)
+    x, z = grid()
+    floor = np.maximum(abs(x), abs(z)) > 1
+
+    np.testing.assert_allclose(seen[floor & (inside > 0.15)], 3 / 8, atol=1e-6)
+    np.testing.assert_allclose(seen[floor & (inside < -0.15)], 4 / 8, atol=1e-6)
+    lit["lights"] = []
+    assert not studio.layers(lit, ["light_visibility"], (SIZE, SIZE))["light_visibility"].any()

@@ -129,8 +129,8 @@ def test_a_picture_is_the_dish_brought_to_its_size():
     fields = spec(size=[64, 32], steps=50)
     dish = react(*initial_dish(fields), fields)[1]
 
-    same = synthesize(fields, (64, 32), {}, silent).pixels[..., 0]
-    small = synthesize(fields, (32, 16), {}, silent).pixels[..., 0]
+    same = synthesize(fields, (64, 32), {}, silent).image.pixels[..., 0]
+    small = synthesize(fields, (32, 16), {}, silent).image.pixels[..., 0]
 
     assert same.tobytes() == dish.tobytes()
     assert small == pytest.approx(dish.reshape(16, 2, 32, 2).mean(axis=(1, 3)), abs=1e-7)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from api_schemas.textures.constant import ConstantSpec
+from api_schemas.textures.levels import LevelsSpec
 from worker import synthesis
 from worker.images.image import Image
 from worker.synthesis.outcome import Outcome
@@ -27,3 +28,18 @@ def test_the_layers_and_the_report_of_a_technique_arrive(monkeypatch):
     spec = ConstantSpec(technique="constant", value=[0.5])
     assert synthesis.outcome(spec, (4, 2), None) is made
     assert synthesis.synthesize(spec, (4, 2), None) is made.image
+
+
+def test_only_the_texture_itself_is_shown_while_it_is_made(monkeypatch):
+    inner, outer = grey(4, 2), grey(4, 2)
+
+    def synthesize(spec, size, inputs, report):
+        made = inner if spec.technique == "perlin" else outer
+        report(0.5, "half", made)
+        return made
+
+    monkeypatch.setattr(synthesis, "_module", lambda name: SimpleNamespace(synthesize=synthesize))
+    spec = LevelsSpec.model_validate({"technique": "levels", "input": {"technique": "perlin"}})
+    shown = []
+    synthesis.outcome(spec, (4, 2), None, show=shown.append)
+    assert shown == [outer]

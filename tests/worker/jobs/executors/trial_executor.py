@@ -56,6 +56,13 @@ def _describe(body, out, report):
     }
 
 
+def _show(body, out, report):
+    """Leave a preview, and wait until it was seen."""
+    Path(body["request"]["preview"]).write_bytes(b"half a picture")
+    while not Path(body["seen"]).exists():
+        time.sleep(0.01)
+
+
 def _sleep(body, out, report):
     end = time.monotonic() + body["seconds"]
     while (left := end - time.monotonic()) > 0:
@@ -156,6 +163,7 @@ def _say(body, out, report):
 _DO = {
     "nothing": _nothing,
     "describe": _describe,
+    "show": _show,
     "sleep": _sleep,
     "burn": _burn,
     "wait": _wait,

@@ -6,10 +6,6 @@ in vec2 vertex_uv_1;
 in vec2 vertex_uv_2;
 in vec2 vertex_uv_3;
 
-float inverse_w() {
-    return gl_FragCoord.w;
-}
-
 SurfacePoint surface_point() {
     return point_seen(
         vertex_position,

@@ -1,4 +1,5 @@
 #include "lib/point_seen.glsl"
+#include "lib/reach.glsl"
 // Of (x, y, 1) in samples from an origin near the horizon; worker/rendering/infinite_planes.py says why these are linear.
 uniform vec2 pixel_origin;
 uniform mat3 plane_from_pixel;     // to u / w, v / w, 1 / w
@@ -13,18 +14,14 @@ vec3 pixel() {
     return vec3(gl_FragCoord.xy - pixel_origin, 1.0);
 }
 
-float inverse_w() {
-    float inverse = (plane_from_pixel * pixel()).z;
-    return abs(inverse) < HORIZON ? HORIZON : inverse;
-}
-
-// Where the ray of this pixel meets the plane; behind the eye if inverse_w() is below 0.
+// Where the ray of this pixel meets the plane; behind the eye if inverse_w is below 0.
 SurfacePoint surface_point() {
-    float inverse = inverse_w();
-    vec2 uv = (plane_from_pixel * pixel()).xy / inverse;
+    vec3 plane = plane_from_pixel * pixel();
+    inverse_w = abs(plane.z) < HORIZON ? HORIZON : plane.z;
+    vec2 uv = plane.xy / inverse_w;
     return point_seen(
-        position_from_pixel * pixel() / inverse,
-        object_from_pixel * pixel() / inverse,
+        position_from_pixel * pixel() / inverse_w,
+        object_from_pixel * pixel() / inverse_w,
         vec2[4](uv, uv, uv, uv)
     );
 }
@@ -32,8 +29,7 @@ SurfacePoint surface_point() {
 // Whether the pixel shows the plane, and how far away: beyond the far plane depths go on below all
 // others, nearer ones above farther ones in parallel views too.
 bool on_plane() {
-    float inverse = inverse_w();
     float depth = dot(depth_from_pixel, pixel());
-    gl_FragDepth = depth > 0.0 ? depth : BEYOND_FAR_PLANE * inverse / (1.0 - depth);
-    return inverse > 0.0 && depth <= 1.0;
+    gl_FragDepth = depth > 0.0 ? depth : BEYOND_FAR_PLANE * inverse_w / (1.0 - depth);
+    return inverse_w > 0.0 && depth <= 1.0;
 }

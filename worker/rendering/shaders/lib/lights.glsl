@@ -15,14 +15,16 @@ vec3 light_all_around() {
 
 // What part of a light's colours comes through to a point; each program brings its own.
 vec3 let_through(int light, SurfacePoint point);
+float seen_by_light(int light, SurfacePoint point);  // of that, what no shadow takes
 
 struct Light {
     vec3 direction;   // towards the light
     vec3 irradiance;  // on a surface that faces it
 };
 
-// The cone fades as KHR_lights_punctual says; a light without a cone has slope 0 and offset 1.
-Light light_at(int index, SurfacePoint point) {
+// Light on its way to the point, whatever stands between. The cone fades as KHR_lights_punctual
+// says; a light without a cone has slope 0 and offset 1.
+Light light_towards(int index, SurfacePoint point) {
     vec4 place = light_position[index];
     vec3 way = place.xyz - point.position * place.w;
     float distance_squared = place.w == 0.0 ? 1.0 : dot(way, way);
@@ -30,6 +32,11 @@ Light light_at(int index, SurfacePoint point) {
     float cone = clamp(
         dot(-direction, light_axis[index].xyz) * light_axis[index].w + light_color[index].a, 0.0, 1.0
     );
-    vec3 irradiance = light_color[index].rgb * (cone * cone / distance_squared);
-    return Light(direction, irradiance * let_through(index, point));
+    return Light(direction, light_color[index].rgb * (cone * cone / distance_squared));
+}
+
+Light light_at(int index, SurfacePoint point) {
+    Light light = light_towards(index, point);
+    light.irradiance *= let_through(index, point);
+    return light;
 }

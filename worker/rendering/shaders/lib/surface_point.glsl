@@ -11,5 +11,3 @@ struct SurfacePoint {
     vec2 uv[4];            // the mesh's texture coordinates, each set
 };
 
-// 1 / w where the surface is: linear on the screen, so that its differences are derivatives.
-float inverse_w();

@@ -1,5 +1,6 @@
 #include "lib/lights.glsl"
 #include "lib/microfacets.glsl"
+#include "lib/sky.glsl"
 #include "lib/surface_point.glsl"
 
 struct Surface {
@@ -55,10 +56,13 @@ float largest(vec3 color) {
 
 // glTF 2.0, appendix B, with KHR_materials_ior, _specular and _clearcoat:
 // F = F0 + (F90 - F0) (1 - v.h)^5, f = (1 - metallic) (1 - F) c / pi + F D V, the varnish on top.
-// Ambient light comes from everywhere alike: its reflection is F0 A + F90 B, and what a dielectric
-// does not reflect reaches the matt part.
+// Light from all around is split into two (Karis 2013): what the mirrored lobe gathers of it, times
+// F0 A + F90 B of a sky that is everywhere alike; what a dielectric does not reflect reaches the
+// matt part.
 // A point without a normal shows emission + c.
 vec4 shade(SurfacePoint point, Surface surface) {
+    vec3 mirrored = reflect(-point.view, point.normal);
+    float reach = max(length(dFdx(mirrored)), length(dFdy(mirrored)));
     vec3 base = surface.base_color * point.color.rgb;
     if (point.normal == vec3(0.0)) return vec4(surface.emission + base, 1.0);
     float metallic = clamp(surface.metallic, 0.0, 1.0);
@@ -82,10 +86,16 @@ vec4 shade(SurfacePoint point, Surface surface) {
     float coat = clamp(surface.clearcoat, 0.0, 1.0)
         * (COAT_F0 + (1.0 - COAT_F0) * schlick(coat_seen));
 
-    vec3 all_around = surface.occlusion * light_all_around();
+    vec3 even = light_all_around();
+    vec3 on_matt = even + sky_on_matt(point.normal);
+    vec3 in_mirror = even + sky_in_mirror(mirrored, reach, surface.roughness);
+    vec3 coat_mirrored = reflect(-point.view, point.smooth_normal);
+    vec3 in_coat = even + sky_in_mirror(coat_mirrored, reach, surface.clearcoat_roughness);
     vec3 below_all = matt * (1.0 - largest(reflected_of_all(brighter, table)));
-    vec3 radiance = surface.emission + all_around * (below_all + reflected_of_all(both, table));
-    vec3 on_coat = all_around * reflectance(coat_seen, surface.clearcoat_roughness).b;
+    vec3 radiance = on_matt * below_all + in_mirror * reflected_of_all(both, table);
+    radiance = surface.emission + surface.occlusion * radiance;
+    float coat_reflects = reflectance(coat_seen, surface.clearcoat_roughness).b;
+    vec3 on_coat = surface.occlusion * coat_reflects * in_coat;
     for (int i = 0; i < light_count; i++) {
         Light light = light_at(i, point);
         vec3 half_way = light.direction + point.view;

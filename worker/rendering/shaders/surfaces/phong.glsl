@@ -1,5 +1,6 @@
 #include "lib/lights.glsl"
 #include "lib/power.glsl"
+#include "lib/sky.glsl"
 #include "lib/surface_point.glsl"
 
 struct Surface {
@@ -16,10 +17,17 @@ struct Surface {
 
 const float PI = 3.14159265;
 
+// Of a mirror whose lobe is about as wide as a power of the cosine: alpha^2 = 2 / (4 n + 2).
+float roughness_of(float exponent) {
+    return sqrt(sqrt(1.0 / (2.0 * exponent + 1.0)));
+}
+
 // L_out = emission + ka Ca La + sum_l [kd Cd max(0, n.l) + ks Cs max(0, r.v)^n] L_l (Phong 1975).
 // The mesh's colour multiplies Ca and Cd. A point without a normal shows emission + kd Cd.
 // energy: kd / pi, and ks (n + 2) / (2 pi) with the extra n.l (Lafortune and Willems 1994).
 vec4 shade(SurfacePoint point, Surface surface) {
+    vec3 seen_mirrored = reflect(-point.view, point.normal);
+    float reach = max(length(dFdx(seen_mirrored)), length(dFdy(seen_mirrored)));
     // precise: a mapped constant and a plain one must give the same bits in their two programs.
     precise vec3 matt = surface.diffuse_weight * surface.diffuse_color * point.color.rgb;
     precise vec3 gloss = surface.specular_weight * surface.specular_color;
@@ -30,7 +38,10 @@ vec4 shade(SurfacePoint point, Surface surface) {
         gloss *= (exponent + 2.0) / (2.0 * PI);
     }
     precise vec3 ambient = surface.ambient_weight * surface.ambient_color * point.color.rgb;
-    precise vec3 radiance = surface.emission + ambient * light_all_around();
+    vec3 on_matt = light_all_around() + sky_on_matt(point.normal);
+    precise vec3 radiance = surface.emission + ambient * on_matt;
+    radiance += surface.specular_weight * surface.specular_color
+        * sky_in_mirror(seen_mirrored, reach, roughness_of(exponent));
     for (int i = 0; i < light_count; i++) {
         Light light = light_at(i, point);
         float facing = dot(point.normal, light.direction);

@@ -1,0 +1,40 @@
+"""The light from all around a scene, as a picture of all directions."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from api_schemas.base import Angle, NonNegative, Schema
+from api_schemas.language import Layout, Texture
+from api_schemas.maps import COLOUR
+
+
+class Environment(Schema):
+    """What is infinitely far away, shines on everything, and is seen in mirrors and behind all."""
+
+    texture: Annotated[Texture, COLOUR] = Field(
+        description="The light from each direction: an upload with its own pixels, or any "
+        "technique. Alpha is ignored; what is no number is dark, and what is infinite as bright as "
+        "the brightest that is not."
+    )
+    layout: Layout = Field(
+        default={"technique": "latlong"},
+        validate_default=True,
+        description="How directions lie on the picture.",
+    )
+    rotation_y: Angle = Field(
+        default=0.0,
+        description="Turns it round the vertical, counter-clockwise from above, in radians.",
+    )
+    intensity: NonNegative = Field(default=1.0, description="Multiplies its light.")
+    visible: bool = Field(
+        default=True,
+        description="Whether it is seen where nothing is, unless the scene has a background.",
+    )
+    matt: Literal["sum", "harmonics"] = Field(
+        default="sum",
+        description="How its light on matt surfaces is found: exactly, or by nine smooth functions "
+        "as real-time programs do, a few percent off.",
+    )

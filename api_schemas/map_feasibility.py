@@ -1,0 +1,58 @@
+"""Maps that are well-formed and still cannot be looked up."""
+
+from collections.abc import Iterator
+
+from api_schemas.families import TextureSpec
+from api_schemas.layouts.cube import CubeSpec
+from api_schemas.maps import ColorMap, Map, NumberMap, TextureTransform
+from api_schemas.obstacle import Obstacle
+from api_schemas.walk import parts
+
+
+def map_obstacles(mapped: Map, pointer: str) -> Iterator[Obstacle]:
+    """Yield what stands in the way of a map that is at a JSON pointer."""
+    if mapped.layout is not None:
+        yield from _layout(mapped, pointer)
+    if mapped.filter == "formula":
+        yield from _formula(mapped, pointer)
+
+
+def _layout(mapped: Map, pointer: str) -> Iterator[Obstacle]:
+    layout = mapped.layout
+    assert layout is not None
+    if mapped.coordinates.dimensions != 3:
+        yield Obstacle(
+            "layout_without_direction",
+            f"{pointer}/layout",
+            f"{mapped.coordinates.technique} coordinates are a place on the picture already; "
+            "a layout needs a direction",
+        )
+    if (mistake := layout.mistake()) is not None:
+        field, message = mistake
+        yield Obstacle("layout_impossible", f"{pointer}/layout/{field}", message)
+    if isinstance(layout, CubeSpec):
+        if mapped.transform != TextureTransform():
+            yield Obstacle(
+                "layout_impossible",
+                f"{pointer}/transform",
+                "the faces of a cube cannot be shifted, turned or repeated",
+            )
+        if mapped.filter == "formula":
+            yield Obstacle(
+                "formula_missing", f"{pointer}/filter", "a cube's faces are cut from a picture"
+            )
+
+
+def _formula(mapped: Map, pointer: str) -> Iterator[Obstacle]:
+    if not isinstance(mapped, ColorMap | NumberMap) or (
+        isinstance(mapped, NumberMap) and mapped.channel == "packed"
+    ):
+        yield Obstacle(
+            "formula_missing", f"{pointer}/filter", "what is looked up here needs a picture"
+        )
+        return
+    for place, part in parts(mapped.texture, f"{pointer}/texture"):
+        if isinstance(part, TextureSpec) and not part.has_formula():
+            yield Obstacle(
+                "formula_missing", place, f"this {part.technique} has no formula to work out"
+            )

@@ -1,0 +1,65 @@
+"""What is made of an environment before it shines: textures as anyone could ask for them."""
+
+from dataclasses import dataclass
+
+from api_schemas.cost import Cost
+from api_schemas.environment import Environment
+from api_schemas.layouts.cube import CubeSpec
+from api_schemas.layouts.latlong import LatlongSpec
+from api_schemas.textures.convert_layout import ConvertLayoutSpec
+from api_schemas.textures.irradiance import IrradianceSpec
+from api_schemas.textures.prefiltered_environment import PrefilteredEnvironmentSpec
+
+SKY_ROUGHNESS = [0.2, 0.4, 0.6, 0.8, 1.0]
+"""Of the levels of a rough cube: lib/environment.glsl counts on equal steps from 0 to 1."""
+SKY_SECONDS_PER_SAMPLE = 1.5e-7
+SKY_SECONDS_TO_COMPILE = 0.5
+SKY_MAPS = 3
+"""Texture units that an environment takes, and maps then cannot."""
+
+_COLUMN = CubeSpec(technique="cube", arrangement="column", orientation="gl")
+
+
+@dataclass(frozen=True, slots=True)
+class SkyTextures:
+    """As it is, if it must be brought to a cube; as rough mirrors see it; as chalk shows it."""
+
+    whole: ConvertLayoutSpec | None
+    rough: PrefilteredEnvironmentSpec
+    matt: IrradianceSpec
+
+    def cost(self) -> Cost:
+        """Estimate what making them takes, the environment itself left out."""
+        cost = Cost(SKY_SECONDS_TO_COMPILE)
+        for texture in (self.whole, self.rough, self.matt):
+            if texture is not None:
+                width, height = texture.surface_size
+                cost += texture.cost(width * height)
+        return cost
+
+
+def sky_textures(environment: Environment) -> SkyTextures:
+    """Return the textures of an environment; a picture in latitude and longitude is read itself."""
+    picture, layout = environment.texture, environment.layout
+    whole = None
+    if not isinstance(layout, LatlongSpec):
+        whole = ConvertLayoutSpec(
+            technique="convert_layout", environment=picture, layout=layout, to=_COLUMN
+        )
+    return SkyTextures(
+        whole=whole,
+        rough=PrefilteredEnvironmentSpec(
+            technique="prefiltered_environment",
+            environment=picture,
+            layout=layout,
+            to=_COLUMN,
+            roughness=SKY_ROUGHNESS,
+        ),
+        matt=IrradianceSpec(
+            technique="irradiance",
+            environment=picture,
+            layout=layout,
+            to=_COLUMN,
+            method=environment.matt,
+        ),
+    )

@@ -1,0 +1,150 @@
+"""The light from all around, as the chunks of shaders/skies read it.
+
+What is blurred is made by texture techniques, as anyone could ask for it, and kept by content.
+"""
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from api_schemas.environment import Environment
+from api_schemas.families import Meaning, TextureSpec
+from api_schemas.layouts.latlong import LatlongSpec
+from api_schemas.sky import SKY_ROUGHNESS, sky_textures
+from worker.images.image import Image
+from worker.images.mending import mended
+from worker.images.pyramids import mip_chain
+from worker.rendering.cache import ByteCache
+from worker.rendering.calls import choice
+from worker.rendering.cube_textures import CubeTexture, faces_in
+from worker.rendering.gl_context import GL
+from worker.rendering.programs import Program
+from worker.rendering.samplers import SamplerCache, Sampling
+from worker.rendering.shading_layout import SkyKind
+from worker.rendering.textures import Texture
+
+CUBES_BYTES_MAX = 64 << 20
+_UNITS = {"sky_picture": 23, "sky_rough": 24, "sky_matt": 25}
+"""Below those of lights; a scene with an environment has room for that many maps less."""
+
+_SAMPLING = Sampling(wrap=("repeat", "clamp"), smooth=True, levels=True)
+Maker = Callable[[TextureSpec, Meaning], Image]
+
+
+@dataclass(frozen=True, slots=True)
+class Sky:
+    """An environment in OpenGL.
+
+    Attributes:
+        kind: Which chunk reads it.
+        picture: As it is, with its mip levels.
+        rough: As rough mirrors see it, a level for each of SKY_ROUGHNESS.
+        matt: Irradiance over pi.
+        uniforms: What else the chunk wants to know.
+    """
+
+    kind: SkyKind
+    picture: Texture | CubeTexture
+    rough: CubeTexture
+    matt: CubeTexture
+    uniforms: Mapping[str, Any]
+
+    def bind(self, program: Program, samplers: SamplerCache) -> None:
+        """Give the bound program the environment, as far as it wants it."""
+        for name, value in self.uniforms.items():
+            program.set(name, value)
+        for name, unit in _UNITS.items():
+            program.set(name, unit)
+            texture = getattr(self, name.removeprefix("sky_"))
+            flat = isinstance(texture, Texture)
+            GL.glActiveTexture(GL.GL_TEXTURE0 + unit)
+            GL.glBindTexture(GL.GL_TEXTURE_2D if flat else GL.GL_TEXTURE_CUBE_MAP, texture.number)
+            GL.glBindSampler(unit, samplers.get(_SAMPLING, (0.0,) * 4) if flat else 0)
+
+
+class Skies:
+    """Keeps the environments of earlier scenes, by content."""
+
+    def __init__(self) -> None:
+        """Begin with nothing in OpenGL."""
+        self._cubes = ByteCache[CubeTexture](CUBES_BYTES_MAX, CubeTexture.delete)
+        self._pictures = ByteCache[Texture](CUBES_BYTES_MAX, Texture.delete)
+
+    def sky(self, spec: Environment, maker: Maker) -> Sky:
+        """Make or find what a scene's environment needs.
+
+        Raises:
+            WorkerError: A texture cannot be made.
+        """
+        textures = sky_textures(spec)
+        kind: SkyKind = "latlong" if textures.whole is None else "cube"
+        picture: Texture | CubeTexture
+        if textures.whole is None:
+            picture = self._pictures.get(
+                spec.texture.model_dump_json(), lambda: _flat(maker(spec.texture, "colour"))
+            )
+        else:
+            picture = self._cube(textures.whole, maker, sharp_levels)
+        uniforms: dict[str, Any] = {
+            "sky_from_world": turned(spec.rotation_y),
+            "sky_intensity": spec.intensity,
+        }
+        if isinstance(spec.layout, LatlongSpec):
+            uniforms["sky_centre"] = choice(spec.layout, "centre")
+        return Sky(
+            kind,
+            picture,
+            self._cube(textures.rough, maker, _panels),
+            self._cube(textures.matt, maker, lambda pixels: [faces_in(pixels)]),
+            uniforms,
+        )
+
+    def trim(self) -> None:
+        """Free what exceeds the bounds; call it when nothing is being drawn."""
+        self._cubes.trim()
+        self._pictures.trim()
+
+    def _cube(
+        self,
+        spec: TextureSpec,
+        maker: Maker,
+        levels: Callable[[NDArray[np.float32]], list[NDArray[np.float32]]],
+    ) -> CubeTexture:
+        def make() -> tuple[CubeTexture, int]:
+            cube = CubeTexture.upload(levels(maker(spec, "colour").pixels))
+            return cube, cube.size_bytes
+
+        return self._cubes.get(spec.model_dump_json(), make)
+
+
+def turned(angle: float) -> NDArray[np.float64]:
+    """Return the rotation (3, 3) from the world to an environment turned by an angle round y."""
+    cosine, sine = math.cos(angle), math.sin(angle)
+    return np.array([[cosine, 0.0, -sine], [0.0, 1.0, 0.0], [sine, 0.0, cosine]])
+
+
+def sharp_levels(column: NDArray[np.float32]) -> list[NDArray[np.float32]]:
+    """Return faces, and their mip levels, of a column of six."""
+    chains = [mip_chain(face) for face in faces_in(column)]
+    return [np.stack(faces) for faces in zip(*chains, strict=True)]
+
+
+def _panels(pixels: NDArray[np.float32]) -> list[NDArray[np.float32]]:
+    """Cut the pictures that stand on each other, each half as large, into faces."""
+    height, width = pixels.shape[0] // 2, pixels.shape[1]
+    levels, top = [], 0
+    for index in range(len(SKY_ROUGHNESS)):
+        rows, columns = height >> index, width >> index
+        levels.append(faces_in(np.ascontiguousarray(pixels[top : top + rows, :columns])))
+        top += rows
+    return levels
+
+
+def _flat(image: Image) -> tuple[Texture, int]:
+    light, _ = mended(image.pixels[..., : 3 if image.channels >= 3 else 1])
+    texture = Texture.upload(mip_chain(light), "colour")
+    return texture, texture.size_bytes
