@@ -29,7 +29,7 @@ class IrradianceSpec(SphereSpec):
         "A = pi, 2 pi / 3, pi / 4"
     )
 
-    cube_side: ClassVar[int] = 24
+    cube_side: ClassVar[int] = 48
 
     technique: Literal["irradiance"]
     environment: Annotated["Texture | None", OWN_SIZE, COLOUR] = Field(

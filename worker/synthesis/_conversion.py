@@ -21,7 +21,6 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-_WHOLE = 1e-3  # share of 4 pi by which a layout of all directions may miss it
 _FINEST = 16
 
 
@@ -54,17 +53,15 @@ def converted(
     reading between texels lost.
     """
     rows, columns = source.pixels.shape[:2]
+    before = source.measured()
     if layout == source.layout and (columns, rows) == size:
-        power = source.power()
-        return Conversion(source, power, power, np.ones(3), whole=True)
+        return Conversion(source, before.power, before.power, np.ones(3), before.whole)
     pixels = _averaged(Reader(source), layout, size, _fineness(rows * columns, size), report)
-    made = Sphere(pixels.astype(np.float32), layout)
-    whole = _is_whole(source) and _is_whole(made)
-    before, gain = source.power(), np.ones(3)
-    if whole:
-        gain = _gain(source.mean(), made.mean())
-        made = Sphere((pixels * gain).astype(np.float32), layout)
-    return Conversion(made, before, made.power(), gain, whole)
+    after = Sphere(pixels.astype(np.float32), layout).measured()
+    whole = before.whole and after.whole
+    gain = _gain(before.mean, after.mean) if whole else np.ones(3)
+    made = Sphere((pixels * gain).astype(np.float32), layout)
+    return Conversion(made, before.power, after.power * gain, gain, whole)
 
 
 def cube_of(source: Sphere, side: int) -> NDArray[np.float32]:
@@ -80,15 +77,12 @@ def cube_of(source: Sphere, side: int) -> NDArray[np.float32]:
     summed = (read.reshape(6, side * fine, side * fine, 3) * weights).reshape(shape)
     total = weights.reshape(1, *shape[1:]).sum(axis=(2, 4))
     faces = summed.sum(axis=(2, 4)) / total
-    if _is_whole(source):
+    before = source.measured()
+    if before.whole:
         total = np.einsum("fstc,st->c", faces, face_solid_angles(side))
-        faces *= _gain(source.mean(), total / (4 * math.pi))
+        faces *= _gain(before.mean, total / (4 * math.pi))
     light: NDArray[np.float32] = faces.astype(np.float32)
     return light
-
-
-def _is_whole(sphere: Sphere) -> bool:
-    return abs(float(sphere.solid_angles().sum()) / (4 * math.pi) - 1) < _WHOLE
 
 
 def _gain(before: Floats, after: Floats) -> Floats:

@@ -26,7 +26,26 @@ if TYPE_CHECKING:
 PLACES = 1 << 18
 """Directions worked on at a time."""
 
+_WHOLE = 1e-3  # share of 4 pi by which a layout of all directions may miss it
 _NEAR = 12.0  # mean texel sizes; beside a rim texels are long, across an edge they are far apart
+
+
+@dataclass(frozen=True, slots=True)
+class Measured:
+    """Light times solid angle, three numbers, and the solid angle in steradians."""
+
+    power: Floats
+    steradians: float
+
+    @property
+    def mean(self) -> Floats:
+        """The mean light."""
+        return self.power / self.steradians
+
+    @property
+    def whole(self) -> bool:
+        """Whether these are all directions."""
+        return abs(self.steradians / (4 * math.pi) - 1) < _WHOLE
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,15 +65,11 @@ class Sphere:
         height, width = self.pixels.shape[:2]
         return layouts.solid_angles(self.layout, width, height)
 
-    def power(self) -> Floats:
-        """Return the light of all texels times their solid angles: three numbers."""
-        return np.array(
-            [np.vdot(self.pixels[..., c].astype(np.float64), self.solid_angles()) for c in range(3)]
-        )
-
-    def mean(self) -> Floats:
-        """Return the mean light: three numbers."""
-        return self.power() / float(self.solid_angles().sum())
+    def measured(self) -> Measured:
+        """Add up the light and the solid angle of all texels."""
+        solid = self.solid_angles()
+        power = [np.vdot(self.pixels[..., channel], solid) for channel in range(3)]
+        return Measured(np.array(power), float(solid.sum()))
 
     def directions(self) -> Floats:
         """Return the unit directions (height * width, 3) of texels' middles, the top row first."""

@@ -2,24 +2,23 @@
 
 The tile is frequency x frequency square cells, or as many cubes. Points lie one in each cell or, as
 a Poisson process of density 1, as many as chance puts there; a tile always has at least one.
-Distances are counted in cells. The search is exact: rings, or shells, of cells around the pixel are
-looked at until the next one cannot hold a nearer point. Cells and points beyond the tile are those
+Distances are counted in cells, and exact. Cells and points beyond the tile are those
 of its copies, and a pixel's place within its cell is a fraction of whole numbers, so the tile
 repeats bit for bit.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from api_schemas.textures.worley import WorleySpec
 from worker.images.image import Image
 from worker.images.volume import Volume
-from worker.numba_kernel import kernel, parallel_kernel, prange
 from worker.stages import silent
 from worker.synthesis._counter_hash import key, uniforms
+from worker.synthesis._worley_search import Points, fill_distances, fill_distances_at
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -33,17 +32,6 @@ METRICS = {"euclidean": 0, "manhattan": 1, "chebyshev": 2}
 OUTPUTS = {"f1": 0, "f2": 1, "difference": 2}
 POISSON = np.exp(-1) * np.cumsum(1 / np.cumprod([1.0, *range(1, 17)]))
 """Shares of a Poisson process of density 1 with at most 0, 1, 2, .. points in a cell."""
-
-
-class Points(NamedTuple):
-    """Points by cell: those of cell c are starts[c] to starts[c + 1], places within it in 0..1.
-
-    Cell (i, j, k), counted from the lower left corner of the first slice, is
-    c = (k * frequency + j) * frequency + i; in a plane k is 0. Places are always (n, 3).
-    """
-
-    starts: NDArray[np.int64]
-    places: NDArray[np.float64]
 
 
 def synthesize(
@@ -83,7 +71,7 @@ def distances(
     offsets = [rest / (2 * count) for rest, count in zip(rests, counts, strict=True)]
     flat = len(indices) == 2
     values = np.empty([len(index) for index in indices[::-1]], np.float32)
-    _fill_distances(
+    fill_distances(
         values[np.newaxis] if flat else values,
         (*cells, np.zeros(1, np.int64)) if flat else cells,
         (*offsets, np.zeros(1)) if flat else tuple(offsets),
@@ -102,7 +90,7 @@ def distances_at(spec: WorleySpec, places: NDArray[np.float64]) -> NDArray[np.fl
     where = np.zeros((len(places), 3))
     where[:, :axes] = places * spec.frequency
     values = np.empty(len(places))
-    _fill_distances_at(
+    fill_distances_at(
         values,
         where,
         scatter(spec, axes),
@@ -162,114 +150,3 @@ def _chance(spec: WorleySpec, cells: int) -> NDArray[np.int64]:
 def warm() -> None:
     """Compile the kernel."""
     synthesize(WorleySpec(technique="worley", frequency=1), (2, 2), {}, silent)
-
-
-@parallel_kernel
-def _fill_distances(
-    values: NDArray[np.float32],
-    cells: tuple[NDArray[np.int64], ...],
-    offsets: tuple[NDArray[np.float64], ...],
-    points: Points,
-    period: int,
-    flat: bool,
-    metric: int,
-    output: int,
-) -> None:
-    depth, height, width = values.shape
-    for line in prange(depth * height):
-        away, row = line // height, line % height
-        for column in range(width):
-            values[away, row, column] = _distance(
-                points,
-                (cells[0][column], cells[1][row], cells[2][away]),
-                (offsets[0][column], offsets[1][row], offsets[2][away]),
-                period,
-                flat,
-                metric,
-                output,
-            )
-
-
-@kernel
-def _fill_distances_at(
-    values: NDArray[np.float64],
-    places: NDArray[np.float64],
-    points: Points,
-    period: int,
-    flat: bool,
-    metric: int,
-    output: int,
-) -> None:
-    for n in range(len(values)):
-        i, j, k = np.floor(places[n, 0]), np.floor(places[n, 1]), np.floor(places[n, 2])
-        values[n] = _distance(
-            points,
-            (int(i), int(j), int(k)),
-            (places[n, 0] - i, places[n, 1] - j, places[n, 2] - k),
-            period,
-            flat,
-            metric,
-            output,
-        )
-
-
-@kernel
-def _distance(
-    points: Points,
-    cell: tuple[int, int, int],
-    offset: tuple[float, float, float],
-    period: int,
-    flat: bool,
-    metric: int,
-    output: int,
-) -> float:
-    first, second = _nearest(points, cell, offset, period, flat, metric)
-    if metric == 0:
-        first, second = np.sqrt(first), np.sqrt(second)
-    return (first, second, second - first)[output]
-
-
-@kernel
-def _nearest(
-    points: Points,
-    cell: tuple[int, int, int],
-    offset: tuple[float, float, float],
-    period: int,
-    flat: bool,
-    metric: int,
-) -> tuple[float, float]:
-    """Return the two smallest distances, squared if euclidean, from a place within a cell."""
-    first = second = np.inf
-    x, y, z = offset
-    margin = min(x, 1 - x, y, 1 - y)
-    if not flat:
-        margin = min(margin, z, 1 - z)
-    ring = 0
-    while True:
-        reach = ring - 1 + margin
-        if ring > 0 and second <= (reach * reach if metric == 0 else reach):
-            return first, second
-        deep = 0 if flat else ring
-        for k in range(-deep, deep + 1):
-            for j in range(-ring, ring + 1):
-                # What is within the ring or shell has cells at its two ends only
-                whole = abs(j) == ring or (abs(k) == ring and not flat)
-                for i in range(-ring, ring + 1, 1 if whole else max(2 * ring, 1)):
-                    index = (cell[1] + j) % period * period + (cell[0] + i) % period
-                    if not flat:
-                        index += (cell[2] + k) % period * period * period
-                    for point in range(points.starts[index], points.starts[index + 1]):
-                        across = abs(i + points.places[point, 0] - x)
-                        up = abs(j + points.places[point, 1] - y)
-                        away = 0.0 if flat else abs(k + points.places[point, 2] - z)
-                        if metric == 0:
-                            distance = across * across + up * up + away * away
-                        elif metric == 1:
-                            distance = across + up + away
-                        else:
-                            distance = max(across, up, away)
-                        if distance < first:
-                            first, second = distance, first
-                        elif distance < second:
-                            second = distance
-        ring += 1

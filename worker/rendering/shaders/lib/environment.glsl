@@ -19,13 +19,14 @@ vec3 sky_on_matt(vec3 normal) {
     return sky_intensity * textureLod(sky_matt, sky_from_world * normal, 0.0).rgb;
 }
 
-// Below the first step the sharp picture, as blurred as its own levels allow, fades to that step.
+// Below the first step the sharp picture, as blurred as its own levels allow, fades to that step. A
+// pixel that sees more directions than the lobe has widens it.
 vec3 sky_in_mirror(vec3 direction, float reach, float roughness) {
     vec3 towards = sky_from_world * direction;
     float rough = clamp(roughness, 0.0, 1.0);
-    float step_at = rough * SKY_STEPS;
-    float texels = reach * float(textureSize(sky_rough, 0).x) / SKY_QUARTER;
-    vec3 blurred = textureLod(sky_rough, towards, max(step_at - 1.0, level_for(texels))).rgb;
-    vec3 sharp = sky_sharp(towards, max(reach, SKY_LOBE * rough * rough));
-    return sky_intensity * mix(sharp, blurred, min(step_at, 1.0));
+    float alpha = rough * rough;
+    float wider = sqrt(min(length(vec2(alpha, reach / SKY_LOBE)), 1.0));
+    vec3 blurred = textureLod(sky_rough, towards, max(wider * SKY_STEPS - 1.0, 0.0)).rgb;
+    vec3 sharp = sky_sharp(towards, max(reach, SKY_LOBE * alpha));
+    return sky_intensity * mix(sharp, blurred, min(rough * SKY_STEPS, 1.0));
 }
