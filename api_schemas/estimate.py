@@ -17,6 +17,7 @@ from api_schemas.bodies import (
     body,
     displaced,
 )
+from api_schemas.by_example import FromExemplarSpec
 from api_schemas.camera import Camera, FramedCamera, ModelCamera, PosedCamera
 from api_schemas.cookies import Cookie
 from api_schemas.cost import Cost
@@ -27,12 +28,13 @@ from api_schemas.light_cost import cookies_of, seconds_of_shadows, shadow_maps
 from api_schemas.lights import LIGHTS_MAX
 from api_schemas.maps import TABLE_FILTERS
 from api_schemas.output_cost import samples_of, sampling, tiles_of, writing
+from api_schemas.own_size import FUNCTION_SIZE, Size, size_within
 from api_schemas.relief import AnyMap, ParallaxMap
 from api_schemas.requests import RenderRequest, Request
 from api_schemas.scene import Node
 from api_schemas.sky import SKY_SECONDS_PER_SAMPLE, sky_textures
 from api_schemas.textures.image import ImageSpec
-from api_schemas.walk import outermost, parts
+from api_schemas.walk import BRANCHES, outermost, parts
 
 SECONDS_PER_SHADED_SAMPLE = 6e-8
 SECONDS_PER_LIGHT_SAMPLE = 1e-8
@@ -70,7 +72,7 @@ def estimate(request: Request, facts: Mapping[str, AssetFacts]) -> Cost:
         return cost + _drawing(request, facts)
     if request.output.slices:
         return cost + volume_of(request.texture, width * height * request.output.slices)
-    return cost + _textures(request, facts, width * height)
+    return cost + _textures(request, facts, (width, height))
 
 
 def volume_of(texture: TextureSpec, voxels: int) -> Cost:
@@ -79,15 +81,26 @@ def volume_of(texture: TextureSpec, voxels: int) -> Cost:
     return sum((part.volume_cost(voxels) for part in found), Cost())
 
 
-def _textures(value: object, facts: Mapping[str, AssetFacts], pixels: int) -> Cost:
+def _textures(value: object, facts: Mapping[str, AssetFacts], size: Size) -> Cost:
+    def measure(picture: ImageSpec) -> Size:
+        found = facts.get(picture.asset)
+        return (found.width, found.height) if isinstance(found, ImageFacts) else FUNCTION_SIZE
+
     cost = Cost()
     for texture in outermost(value, TextureSpec):
         if isinstance(texture, ImageSpec) and (texels := _texels(texture, facts)):
             cost += Cost(texels * SECONDS_PER_TEXEL, texels * BYTES_PER_TEXEL)
-        cost += texture.cost(pixels)
-        within = math.prod(texture.inner_size((pixels, 1)))
+        within = {}
         for name in type(texture).model_fields:
-            cost += _textures(getattr(texture, name), facts, within)
+            inner = getattr(texture, name)
+            if isinstance(inner, BRANCHES):
+                sides = size_within(texture, name, size, measure)
+                within[name] = math.prod(sides)
+                cost += _textures(inner, facts, sides)
+        if isinstance(texture, FromExemplarSpec):
+            cost += texture.cost_from(within, math.prod(size))
+        else:
+            cost += texture.cost(math.prod(size))
     return cost
 
 
@@ -131,8 +144,7 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
     if (environment := scene.environment) is not None:
         lighting += SKY_SECONDS_PER_SAMPLE
         cost += Cost(samples * SKY_SECONDS_PER_SAMPLE) + sky_textures(environment).cost()
-        size = math.prod(environment.texture.surface_size)
-        cost += _textures(environment.texture, facts, size)
+        cost += _textures(environment.texture, facts, environment.texture.surface_size)
         cost += Cost(bytes=_texels_worn(environment.texture, facts) * BYTES_PER_KEPT_TEXEL)
     made = set()
     once = 0.0
@@ -212,9 +224,7 @@ class _WornTextures:
             picture = f"{type(item).__name__} {item.texture.model_dump_json()}"
             if picture not in self._made:
                 self._made.add(picture)
-                picture_cost = _textures(
-                    item.texture, self._facts, math.prod(item.texture.surface_size)
-                )
+                picture_cost = _textures(item.texture, self._facts, item.texture.surface_size)
                 self.making = max(self.making, picture_cost.bytes)
                 cost += Cost(picture_cost.seconds)
             form = item.filter if item.filter in TABLE_FILTERS else getattr(item, "pyramid", "box")

@@ -36,7 +36,9 @@ def obstacles(request: Request) -> list[Obstacle]:
         return found
     found += _refusals(request)
     if isinstance(request, TextureRequest):
-        return [*found, *_slices(request), *_layer_names(request), *_layers(request.output)]
+        output = request.output
+        found += [*_slices(request), *_layer_names(request), *_layers(output)]
+        return [*found, *_mipmaps(output)]
     found += _camera(request.scene.camera)
     found += _cookies(request.scene.lights or [])
     for index, light in enumerate(request.scene.lights or []):
@@ -125,6 +127,13 @@ def _layer_names(request: TextureRequest) -> Iterator[Obstacle]:
                 f"/output/layers/{index}",
                 f"{texture.technique} has no such layer; it has {known}",
             )
+
+
+def _mipmaps(output: TextureOutput) -> Iterator[Obstacle]:
+    if output.mipmaps and output.format != "exr":
+        yield Obstacle(
+            "mipmaps_need_exr", "/output/mipmaps", "a PNG holds one size; an EXR holds them all"
+        )
 
 
 def _layers(output: RenderOutput | TextureOutput) -> Iterator[Obstacle]:

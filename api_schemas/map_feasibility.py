@@ -2,10 +2,12 @@
 
 from collections.abc import Iterator
 
+from api_schemas.coordinates.triplanar import TriplanarSpec
 from api_schemas.families import TextureSpec
 from api_schemas.layouts.cube import CubeSpec
 from api_schemas.maps import ColorMap, Map, NumberMap, TextureTransform
 from api_schemas.obstacle import Obstacle
+from api_schemas.relief import BumpMap, HeightMap, ParallaxMap, ReliefMap
 from api_schemas.walk import parts
 
 
@@ -15,6 +17,8 @@ def map_obstacles(mapped: Map, pointer: str) -> Iterator[Obstacle]:
         yield from _layout(mapped, pointer)
     if mapped.filter == "formula":
         yield from _formula(mapped, pointer)
+    if isinstance(mapped, ReliefMap | BumpMap):
+        yield from _relief(mapped, pointer)
 
 
 def _layout(mapped: Map, pointer: str) -> Iterator[Obstacle]:
@@ -56,3 +60,13 @@ def _formula(mapped: Map, pointer: str) -> Iterator[Obstacle]:
             yield Obstacle(
                 "formula_missing", place, f"this {part.technique} has no formula to work out"
             )
+
+
+def _relief(mapped: ReliefMap | BumpMap, pointer: str) -> Iterator[Obstacle]:
+    one_place = isinstance(mapped, HeightMap | ParallaxMap)
+    if one_place and isinstance(mapped.coordinates, TriplanarSpec):
+        message = "a relief is read at one place, not at three"
+        yield Obstacle("coordinates_unsuited", f"{pointer}/coordinates", message)
+    if isinstance(mapped.layout, CubeSpec):
+        message = "a relief has no slopes over the edges of a cube"
+        yield Obstacle("layout_impossible", f"{pointer}/layout", message)

@@ -34,6 +34,8 @@ Layer = Literal[
     "texel_density",
     "shading_difference",
     "light_visibility",
+    "crypto_object",
+    "crypto_material",
 ]
 
 LayerName = Annotated[str, Field(pattern="^[a-z][a-z0-9_]{0,31}$")]
@@ -86,6 +88,12 @@ class TextureOutput(Output):
         "its own layers, by name. An EXR holds all that are named, as channels; a PNG shows one "
         "layer instead of the picture.",
     )
+    mipmaps: bool = Field(
+        default=False,
+        description="Whether an EXR is cut into tiles of 64 pixels and holds the picture at half, "
+        "a quarter ... of its size too, each pixel the mean of what it covers: what renderers and "
+        "texture caches (.tx) read a part at a time.",
+    )
     slices: Annotated[int, Field(ge=1, le=1024), WHOLE] | None = Field(
         default=None,
         description="Makes a solid texture as a volume of so many slices, the first one at w = 0; "
@@ -136,18 +144,20 @@ class RenderOutput(Output):
         "samples; object_id, from 1 in the order of drawing, depth first; material_id, from 1 in "
         "the same order, equal surfaces together; coverage, the share of the pixel that things "
         "cover; light_visibility, the share of the lamps' light that shadows leave, 0 where a "
-        "surface faces away; footprint, how far uv go from this pixel to the next one, X and Y to "
-        "the right, Z and W upwards: of waves, a pixel holds those of fewer than 1 / (2 footprint) "
-        "cycles per tile; texel_density, how many texels of the surface's main picture fit along a "
-        "pixel, 0 without one: below 1 the picture is magnified, from 2 on it is as sharp as can "
-        "be; shading_difference, the light of the picture, whose samples are shaded and then "
-        "averaged, less that of maps averaged over the pixel and then shaded once: what a filter "
-        "cannot know of highlights and bumps, and edges. All but the difference, albedo and "
-        "coverage belong to the nearest sample, are never averaged and 0 where nothing is; what is "
-        "blended leaves them to what is behind it. A PNG shows one layer "
-        "instead of the colour: albedo like a picture, directions as n / 2 + 1/2, depth as "
-        "1 / (1 + Z), uv as red and green, an id as its own code, footprint as "
-        "1 + log2(x) / 16 of its lengths to the right and upwards, texel_density as x / (1 + x), "
-        "shading_difference as d / 2 + 1/2, position and coverage as they "
-        "are, cut off outside of 0..1.",
+        "surface faces away; crypto_object and crypto_material, up to six things of a "
+        "pixel with the share of each, as Cryptomatte has them, called by the nodes' names (else "
+        "box 3, sphere 4) and material 1, material 2; footprint, how far uv go from this pixel to "
+        "the next one, X and Y to the right, Z and W upwards: of waves, a pixel holds those of "
+        "fewer than 1 / (2 footprint) cycles per tile; texel_density, how many texels of the "
+        "surface's main picture fit along a pixel, 0 without one: below 1 the picture is "
+        "magnified, from 2 on it is as sharp as can be; shading_difference, the light of the "
+        "picture, whose samples are shaded and then averaged, less that of maps averaged over the "
+        "pixel and then shaded once: what a filter cannot know of highlights and bumps, and edges. "
+        "All but this one, albedo, coverage and shares belong to the nearest sample, are never "
+        "averaged and 0 where nothing is; what is blended leaves them to what is behind it. A PNG "
+        "shows one layer instead of the colour: albedo like a picture, directions as n / 2 + 1/2, "
+        "depth as 1 / (1 + Z), uv as red and green, an id as its own code, those of Cryptomatte as "
+        "a colour each, footprint as 1 + log2(x) / 16 of its lengths to the right and upwards, "
+        "texel_density as x / (1 + x), shading_difference as d / 2 + 1/2, position and coverage as "
+        "they are, cut off outside of 0..1.",
     )

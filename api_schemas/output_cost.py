@@ -27,6 +27,8 @@ LAYER_CHANNELS: Mapping[Layer, int] = {
     "texel_density": 1,
     "shading_difference": 3,
     "light_visibility": 1,
+    "crypto_object": 15,
+    "crypto_material": 15,
 }
 
 _SECONDS_TO_START = 0.01
@@ -38,6 +40,7 @@ _SECONDS_PER_FILTERED_SAMPLE = 9e-8
 _SECONDS_PER_LAYERED_SAMPLE = 1.4e-7
 _SECONDS_PER_LAYERED_PIXEL = 2e-7
 _BYTES_PER_PIXEL = 48
+_MORE_FOR_MIPMAPS = 2
 _BYTES_PER_LAYER_NUMBER = 12
 _BYTES_PER_SAMPLE = 52
 _BYTES_PER_LAYERED_SAMPLE = 272
@@ -59,6 +62,9 @@ def writing(output: Output) -> Cost:
         held = min(pixels, _samples_per_tile(output))
     else:
         held = pixels
+        if isinstance(output, TextureOutput) and output.mipmaps:
+            seconds *= _MORE_FOR_MIPMAPS
+            held *= _MORE_FOR_MIPMAPS
     return Cost(
         _SECONDS_TO_START + pixels * (seconds + numbers * _SECONDS_PER_LAYER_NUMBER),
         float(held * (_BYTES_PER_PIXEL + numbers * _BYTES_PER_LAYER_NUMBER)),

@@ -120,6 +120,7 @@ OBSTACLE_CODES: Final = (
     "time_step_unstable",
     "no_steady_state",
     "reaction_diverged",
+    "coordinates_unsuited",
     "coordinates_missing",
     "layers_need_exr",
     "layer_unknown",

@@ -3,11 +3,12 @@
 from collections.abc import Iterable, Mapping
 from itertools import chain
 from pathlib import Path
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
 
-from api_schemas.output import MEDIA_TYPES, Output, PngBits
+from api_schemas.output import MEDIA_TYPES, Output, PngBits, TextureOutput
 from api_schemas.version import VERSION
 from worker.images import image_io
 from worker.images.image import Image
@@ -24,7 +25,13 @@ _EXR_NAMES = {
 _SHORTEST_FOOTPRINT = np.float32(2**-16)
 
 
-def write(bands: Iterable[Mapping[str, Image]], output: Output, digest: str, path: Path) -> str:
+def write(
+    bands: Iterable[Mapping[str, Image]],
+    output: Output,
+    digest: str,
+    path: Path,
+    attributes: Mapping[str, str] = MappingProxyType({}),
+) -> str:
     """Write a picture, or one layer of it, to a path and return the file's media type.
 
     A PNG holds straight alpha and, for colour, sRGB after exposure and tone curve; an EXR holds
@@ -36,6 +43,7 @@ def write(bands: Iterable[Mapping[str, Image]], output: Output, digest: str, pat
         output: What kind of file is wanted.
         digest: Of the request.
         path: Where the file goes.
+        attributes: What an EXR says of itself besides.
 
     Raises:
         OSError: The file cannot be written.
@@ -49,6 +57,8 @@ def write(bands: Iterable[Mapping[str, Image]], output: Output, digest: str, pat
             pixel_type=output.exr_type,
             digest=digest,
             version=VERSION,
+            mipmaps=isinstance(output, TextureOutput) and output.mipmaps,
+            attributes=attributes,
         )
         return MEDIA_TYPES["exr"]
     pictures = (_shown(band, output.png_bits) for band in bands)

@@ -79,7 +79,9 @@ def run(request: dict[str, Any], out: Path, report: Report) -> dict[str, Any]:
             )
             bands = Timed(drawn.bands)
             start = time.perf_counter()
-            media_type = result_file.write(bands, body.output, request["digest"], out)
+            media_type = result_file.write(
+                bands, body.output, request["digest"], out, drawn.attributes
+            )
             encoding = 1000 * (time.perf_counter() - start - bands.seconds)
         timings["encode_ms"] = round(encoding, 3)
         timings["render_ms"] = round(timings["render_ms"] - encoding, 3)

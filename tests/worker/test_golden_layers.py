@@ -25,6 +25,8 @@ CHANNELS = {
     "texel_density": ["texel_density"],
     "shading_difference": [f"shading_difference.{letter}" for letter in "RGB"],
     "light_visibility": ["light_visibility"],
+    "crypto_object": [f"CryptoObject.{letter}" for letter in "RGB"],
+    "crypto_material": [f"CryptoMaterial.{letter}" for letter in "RGB"],
 }
 
 

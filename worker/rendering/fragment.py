@@ -107,7 +107,7 @@ def _fragment(layout: ShadingLayout, lights: LightLayout, layered: bool, plane: 
     parameters = [*layout.parameters, *(parameter for parameter in others if parameter)]
     chunks = [f"lib/{'infinite_plane' if plane else 'fragment'}.glsl"]
     chunks += [f"surfaces/{layout.technique}.glsl"]
-    chunks += relief_chunks(layout.relief)
+    chunks += relief_chunks(layout)
     chunks += ["lib/opacity.glsl"] if layout.opacity else []
     chunks += ["lib/layers.glsl"] if layered else []
     lit = is_lit(layout.technique) or lights.visibility

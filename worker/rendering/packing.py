@@ -50,3 +50,9 @@ PLACES: Mapping[str, Place] = {
     "footprint": Place(7, 0, 4),
     SHADING_DIFFERENCE: Place(0, 0, 3, "colour"),
 }
+
+SAMPLED: Mapping[str, Place] = {
+    "crypto_object": Place(3, 3, 4),
+    "crypto_material": Place(4, 3, 4),
+}
+"""Layers that are made of all of a pixel's samples, and where these lie."""

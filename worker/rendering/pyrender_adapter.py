@@ -174,15 +174,16 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         if program.frame == self._frame.number:
             return
         program.frame = self._frame.number
-        if "light_count" in program.uniforms:
-            for name, value in self._frame.lights.uniforms.items():
+        if scene.sky is not None and "sky_picture" in program.uniforms:
+            self._units.bind_sky(program, scene.sky)
+        # Coordinates may ask where the lamps are, and not for their shadows.
+        cookies = self._frame.lights.layout.samplers
+        units = {"shadow_maps": SHADOW_UNIT} | {
+            name: unit for unit, name in enumerate(cookies, COOKIE_UNIT)
+        }
+        for name, value in {**self._frame.lights.uniforms, **units}.items():
+            if name in program.uniforms:
                 program.set(name, value)
-            if self._frame.lights.views:
-                program.set("shadow_maps", SHADOW_UNIT)
-            if scene.sky is not None:
-                self._units.bind_sky(program, scene.sky)
-            for unit, name in enumerate(self._frame.lights.layout.samplers, COOKIE_UNIT):
-                program.set(name, unit)
 
     def _bind_and_draw_primitive(
         self, primitive: SurfacePrimitive, pose: Matrix, program: Program, flags: int

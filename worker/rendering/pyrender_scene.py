@@ -62,6 +62,7 @@ class Drawable:
         material: The number of the surface, from 1.
         thing: The number of what it is or is a part of, from 1.
         casts_shadows: Whether it keeps light away.
+        name: What people call it.
     """
 
     mesh: VertexArray
@@ -70,6 +71,7 @@ class Drawable:
     material: int
     thing: int
     casts_shadows: bool
+    name: str
 
 
 Background: TypeAlias = Shading | Sky | tuple[float, ...]

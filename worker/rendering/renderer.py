@@ -3,12 +3,11 @@
 import atexit
 import functools
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from typing import Any, Self, TypeAlias
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from api_schemas.families import Meaning, TextureSpec
 from api_schemas.language import FAMILIES
@@ -19,21 +18,22 @@ from api_schemas.textures.constant import ConstantSpec
 from worker.errors import RenderError
 from worker.images.image import Image
 from worker.models.model import Model
+from worker.rendering.bands import Band, OpenBand
+from worker.rendering.cryptomatte import Mattes, attributes, mattes_of
 from worker.rendering.gl_context import GLContext, check
 from worker.rendering.lighting import Lighting, lighting
-from worker.rendering.packing import PICTURE, PLACES, SHADING_DIFFERENCE
+from worker.rendering.packing import SHADING_DIFFERENCE
 from worker.rendering.pixel_filters import apron
 from worker.rendering.placing import ModelReader
 from worker.rendering.pyrender_adapter import FloatRenderer
 from worker.rendering.pyrender_scene import FlatScene
 from worker.rendering.scene_builder import SceneBuilder
 from worker.rendering.shading import surface_fields
-from worker.rendering.targets import Target, TargetPair
+from worker.rendering.targets import TargetPair
 from worker.rendering.texture_maker import TextureMaker
 from worker.rendering.tiles import (
     LAYERED_SAMPLES_MAX,
     SAMPLES_MAX,
-    Tile,
     bands,
     tile_from_picture,
     tile_size,
@@ -42,8 +42,6 @@ from worker.rendering.tiles import (
 from worker.stages import Report
 
 _GREY = ConstantSpec(technique="constant", value=[0.5, 0.5, 0.5])
-Band: TypeAlias = Mapping[str, Image]
-"""Some rows of the picture, as PICTURE, and of each layer that was asked for, by its name."""
 
 
 @dataclass(slots=True)
@@ -56,6 +54,7 @@ class Rendering:
         counts: triangles and texels.
         timings: Milliseconds, whole after the last band: build_ms, draw_ms, and jit_ms for linking
             programs and their first draws.
+        attributes: What a file says beside the pixels, by name.
         report: What was found out about the scene while it was built; JSON-able.
         warnings: What uploaded models ask for and do not get.
     """
@@ -63,6 +62,7 @@ class Rendering:
     bands: Iterator[Band]
     counts: dict[str, int]
     timings: dict[str, float]
+    attributes: dict[str, str]
     report: dict[str, Any]
     warnings: tuple[str, ...]
 
@@ -132,14 +132,16 @@ def render(
     )
     timings = {"build_ms": _milliseconds(time.perf_counter() - start)}
     counts = {"triangles": built.triangles, "texels": built.texels}
-    drawn = _bands(engine, placed, lights, output, timings, report)
-    return Rendering(drawn, counts, timings, built.report, built.warnings)
+    mattes = mattes_of(built.drawables, output.layers)
+    drawn = _bands(engine, placed, lights, mattes, output, timings, report)
+    return Rendering(drawn, counts, timings, attributes(mattes), built.report, built.warnings)
 
 
 def _bands(
     engine: _Engine,
     scene: FlatScene,
     lights: Lighting,
+    mattes: Mapping[str, Mattes],
     output: RenderOutput,
     timings: dict[str, float],
     report: Report,
@@ -160,7 +162,7 @@ def _bands(
     for tiles in bands(width, height, size):
         start = time.perf_counter()
         above = height - tiles[0].bottom - tiles[0].height
-        band = _Band.empty(output.layers, tiles[0].height, width)
+        band = OpenBand.empty(output.layers, mattes, tiles[0].height, width, supersampling)
         for tile in tiles:
             report((above + tile.height * tile.left / width) / height, "draw")
             seen = widened(tile, around)
@@ -172,6 +174,7 @@ def _bands(
                 (seen.width * supersampling, seen.height * supersampling),
                 supersampling,
             )
+            band.read_samples(target, tile, supersampling, around)
             resolved = engine.targets.resolve(
                 tile.width, tile.height, supersampling, output.pixel_filter
             )
@@ -188,41 +191,6 @@ def _bands(
     timings |= {"draw_ms": _milliseconds(spent - jit), "jit_ms": _milliseconds(jit)}
     engine.trim()
     report(1.0, "draw")
-
-
-@dataclass(frozen=True, slots=True)
-class _Band:
-    """Where the pixels of a band are put together: arrays (rows, width, channels) by place."""
-
-    pixels: dict[str, NDArray[np.float32]]
-
-    @classmethod
-    def empty(cls, layers: Sequence[str], rows: int, width: int) -> Self:
-        return cls(
-            {
-                name: np.empty((rows, width, PLACES[name].channels), np.float32)
-                for name in (PICTURE, *layers)
-            }
-        )
-
-    def read(self, resolved: Target, tile: Tile) -> None:
-        """Copy a tile's part of every layer from OpenGL."""
-        columns = slice(tile.left, tile.left + tile.width)
-        for attachment in {PLACES[name].attachment for name in self.pixels}:
-            numbers = resolved.read(attachment, tile.width, tile.height)
-            for name, pixels in self.pixels.items():
-                place = PLACES[name]
-                if place.attachment == attachment:
-                    pixels[:, columns] = numbers[..., place.start : place.end]
-
-    def subtract(self, samples: Target, tile: Tile) -> None:
-        """Take a picture of one sample for each pixel away from the difference."""
-        columns = slice(tile.left, tile.left + tile.width)
-        picture = samples.read(0, tile.width, tile.height)
-        self.pixels[SHADING_DIFFERENCE][:, columns] -= picture[..., :3]
-
-    def images(self) -> Band:
-        return {name: Image(pixels, PLACES[name].meaning) for name, pixels in self.pixels.items()}
 
 
 def _milliseconds(seconds: float) -> float:

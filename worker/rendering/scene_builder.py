@@ -89,6 +89,7 @@ class SceneBuilder:
                     worn[key][1],
                     item.thing,
                     item.node.casts_shadows,
+                    item.name,
                 )
             )
         endless = any(found.mesh.tile is not None for found in kept)
