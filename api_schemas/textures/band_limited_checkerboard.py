@@ -44,3 +44,7 @@ class BandLimitedCheckerboardSpec(TextureSpec):
         description="Waves of fewer half swings per square than this are kept: 1 leaves grey, 2 "
         "one wave, 40 nearly square edges. Without it, as many as pixels can hold, 512 at most.",
     )
+
+    def has_formula(self) -> bool:
+        """Every place has its colour."""
+        return True
