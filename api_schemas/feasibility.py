@@ -45,7 +45,7 @@ def obstacles(request: Request) -> list[Obstacle]:
         found += _light(light, f"/scene/lights/{index}")
     for index, node in enumerate(request.scene.nodes):
         found += _node(node, f"/scene/nodes/{index}", IDENTITY)
-    return found + list(_layers(request.output))
+    return found + list(_layers(request.output)) + list(_turntable(request.output))
 
 
 def assets_in(request: Request) -> list[tuple[str, str]]:
@@ -128,6 +128,23 @@ def _layer_names(request: TextureRequest) -> Iterator[Obstacle]:
                 f"/output/layers/{index}",
                 f"{texture.technique} has no such layer; it has {known}",
             )
+
+
+def _turntable(output: RenderOutput) -> Iterator[Obstacle]:
+    turntable = output.turntable
+    if turntable is None:
+        return
+    if turntable.arrangement == "layers" and output.format != "exr":
+        message = "a PNG holds no frames as layers"
+        yield Obstacle("layers_need_exr", "/output/turntable/arrangement", message)
+    if max(output.file_size) > SIDE_MAX:
+        width, height = output.file_size
+        yield Obstacle(
+            "atlas_too_large",
+            "/output/turntable/frames",
+            f"the frames beside each other take {width} x {height} pixels; "
+            f"at most {SIDE_MAX} along a side",
+        )
 
 
 def _mipmaps(output: TextureOutput) -> Iterator[Obstacle]:
