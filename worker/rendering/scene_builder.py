@@ -1,6 +1,7 @@
 """From a request's scene to drawables: nodes placed, meshes and textures uploaded or found."""
 
 import itertools
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,6 +14,7 @@ from api_schemas.lights import Light
 from api_schemas.maps import ColorMap
 from api_schemas.scene import Scene
 from api_schemas.surfaces.unlit import UnlitSpec
+from worker.geometry.transforms import Matrix
 from worker.rendering.cookies import Cookies, cookies_of
 from worker.rendering.kept_meshes import MeshCache, frames_report
 from worker.rendering.placing import ModelReader, Placed, place
@@ -70,6 +72,7 @@ class SceneBuilder:
         reader: ModelReader,
         *,
         tangents: bool = False,
+        turns: Sequence[Matrix] = (np.eye(4),),
     ) -> BuiltScene:
         """Place, upload and lay out everything in a scene.
 
@@ -79,6 +82,7 @@ class SceneBuilder:
             maker: Makes the pictures of textures that are not kept from an earlier scene.
             reader: Reads the uploaded models.
             tangents: Whether all meshes need them, not only those with normal maps.
+            turns: How all things will be moved, frame by frame; a camera that frames sees all.
 
         Raises:
             WorkerError: The camera is degenerate, a budget is exceeded, a texture cannot be made,
@@ -104,11 +108,15 @@ class SceneBuilder:
                     item.name,
                 )
             )
+        endless = any(found.mesh.tile is not None for found in kept)
+        bounded = any(found.mesh.tile is None for found in kept)
         vertices = (
-            (found.mesh.positions, item.world_from_object)
+            (found.mesh.positions, turn @ item.world_from_object)
+            for turn in turns
             for item, found in zip(placed, kept, strict=True)
+            if found.mesh.tile is None or not bounded  # planes without end are framed only alone
         )
-        view = view_of(scene.camera, models, vertices, aspect)
+        view = view_of(scene.camera, models, vertices, aspect, endless=endless)
         lights, left_out = lights_of(
             scene.lights,
             models,
