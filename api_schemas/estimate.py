@@ -9,6 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TypeAlias
 
 from api_schemas.assets import AssetFacts, ImageFacts
+from api_schemas.base import Schema
 from api_schemas.bodies import (
     BYTES_PER_KEPT_TEXEL,
     BYTES_PER_TEXEL,
@@ -17,21 +18,26 @@ from api_schemas.bodies import (
     body,
     displaced,
 )
+from api_schemas.by_example import FromExemplarSpec
 from api_schemas.camera import Camera, FramedCamera, ModelCamera, PosedCamera
 from api_schemas.cookies import Cookie
+from api_schemas.coordinates.triplanar import TriplanarSpec
 from api_schemas.cost import Cost
 from api_schemas.coverage import coverage, stand_in
 from api_schemas.families import SurfaceSpec, TextureSpec
 from api_schemas.geometry import IDENTITY, Affine, Vector3, affine
 from api_schemas.light_cost import cookies_of, seconds_of_shadows, shadow_maps
 from api_schemas.lights import LIGHTS_MAX
+from api_schemas.maps import TABLE_FILTERS
 from api_schemas.output_cost import samples_of, sampling, tiles_of, writing
+from api_schemas.own_size import FUNCTION_SIZE, Size, size_within
 from api_schemas.relief import AnyMap, ParallaxMap
 from api_schemas.requests import RenderRequest, Request
 from api_schemas.scene import Node
 from api_schemas.sky import SKY_SECONDS_PER_SAMPLE, sky_textures
+from api_schemas.solid import is_carved, worn_depth
 from api_schemas.textures.image import ImageSpec
-from api_schemas.walk import outermost, parts
+from api_schemas.walk import BRANCHES, outermost, parts
 
 SECONDS_PER_SHADED_SAMPLE = 6e-8
 SECONDS_PER_LIGHT_SAMPLE = 1e-8
@@ -40,10 +46,17 @@ SECONDS_PER_MAP_SAMPLE = {
     "bilinear": 1e-8,
     "trilinear": 2e-8,
     "anisotropic": 1.5e-7,
+    "ewa": 6e-7,
+    "ripmap": 1e-7,
+    "summed_area": 5e-7,
     "formula": 4e-7,
 }
+BYTES_PER_TABLE_TEXEL: Mapping[str, int] = {"ripmap": 64, "summed_area": 32}
+BYTES_TO_SUM_A_TEXEL = 96
+SECONDS_PER_STORED_TEXEL = {"box": 2e-8, "kaiser": 5e-7, "ripmap": 1e-7, "summed_area": 2e-7}
 SECONDS_PER_PARALLAX_STEP = 2e-8
 SECONDS_TO_COMPILE_A_MAP = 0.12
+SECONDS_TO_COMPILE_A_FORMULA = 0.4
 SECONDS_PER_DRAWN_TRIANGLE = 5e-8
 SECONDS_PER_DRAW = 2e-4
 SECONDS_PER_SORTED_TRIANGLE = 3e-7
@@ -63,7 +76,7 @@ def estimate(request: Request, facts: Mapping[str, AssetFacts]) -> Cost:
         return cost + _drawing(request, facts)
     if request.output.slices:
         return cost + volume_of(request.texture, width * height * request.output.slices)
-    return cost + _textures(request, facts, width * height)
+    return cost + _textures(request, facts, (width, height))
 
 
 def volume_of(texture: TextureSpec, voxels: int) -> Cost:
@@ -72,15 +85,26 @@ def volume_of(texture: TextureSpec, voxels: int) -> Cost:
     return sum((part.volume_cost(voxels) for part in found), Cost())
 
 
-def _textures(value: object, facts: Mapping[str, AssetFacts], pixels: int) -> Cost:
+def _textures(value: object, facts: Mapping[str, AssetFacts], size: Size) -> Cost:
+    def measure(picture: ImageSpec) -> Size:
+        found = facts.get(picture.asset)
+        return (found.width, found.height) if isinstance(found, ImageFacts) else FUNCTION_SIZE
+
     cost = Cost()
     for texture in outermost(value, TextureSpec):
         if isinstance(texture, ImageSpec) and (texels := _texels(texture, facts)):
             cost += Cost(texels * SECONDS_PER_TEXEL, texels * BYTES_PER_TEXEL)
-        cost += texture.cost(pixels)
-        within = math.prod(texture.inner_size((pixels, 1)))
+        within = {}
         for name in type(texture).model_fields:
-            cost += _textures(getattr(texture, name), facts, within)
+            inner = getattr(texture, name)
+            if isinstance(inner, BRANCHES):
+                sides = size_within(texture, name, size, measure)
+                within[name] = math.prod(sides)
+                cost += _textures(inner, facts, sides)
+        if isinstance(texture, FromExemplarSpec):
+            cost += texture.cost_from(within, math.prod(size))
+        else:
+            cost += texture.cost(math.prod(size))
     return cost
 
 
@@ -124,26 +148,29 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
     if (environment := scene.environment) is not None:
         lighting += SKY_SECONDS_PER_SAMPLE
         cost += Cost(samples * SKY_SECONDS_PER_SAMPLE) + sky_textures(environment).cost()
-        size = math.prod(environment.texture.surface_size)
-        cost += _textures(environment.texture, facts, size)
+        cost += _textures(environment.texture, facts, environment.texture.surface_size)
         cost += Cost(bytes=_texels_worn(environment.texture, facts) * BYTES_PER_KEPT_TEXEL)
     made = set()
     once = 0.0
     for node, placed, found in drawn:
         drawing = found.draws * SECONDS_PER_DRAW + found.pieces * SECONDS_PER_DRAWN_TRIANGLE
-        cost += Cost(tiles * drawing)
-        once += drawing
+        # Of several surfaces on one shape each draws it all, and throws away what is not its.
+        passes = 1 if node.surface_map is None else len(node.surface_map.surfaces)
+        cost += Cost(tiles * passes * drawing)
+        once += passes * drawing
         if found.key not in made:
             made.add(found.key)
             cost += found.making
             cost += Cost(MAPS_OF_A_MATERIAL * SECONDS_TO_COMPILE_A_MAP * found.pictures)
-        shown = node.surface or node.mesh
+        shown = node.surface_map or node.surface or node.mesh
         surfaces = [part for _, part in parts(shown) if isinstance(part, SurfaceSpec)]
         maps = [_maps(surface) for surface in surfaces]
-        for worn in [*maps, _maps(node.displacement)]:
+        among: list[MAPS] = [] if node.surface_map is None else [node.surface_map]
+        for worn in [*maps, among, _maps(node.displacement)]:
             cost += textures.cost(worn)
         own = MAPS_OF_A_MATERIAL * found.pictures * SECONDS_PER_MAP_SAMPLE["anisotropic"]
-        shading = lighting + max([own, *map(_seconds_per_sample, maps)])
+        looks = [own, *map(_seconds_per_sample, maps)]
+        shading = passes * lighting + (sum(looks) if among else max(looks))
         # The parts of one model fill the ball side by side as well as one behind the other.
         covered = math.cbrt(found.draws)
         covered *= coverage(found.reach, placed, camera, width / height)
@@ -151,7 +178,8 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
             covered *= 2  # what is behind its front is shaded too
             cost += Cost(found.pieces * SECONDS_PER_SORTED_TRIANGLE)
         cost += Cost(samples * covered * shading)
-    cost += shadow_maps(scene.lights or [], once)
+    shadows = shadow_maps(scene.lights or [], once)
+    cost += Cost(request.output.frames * shadows.seconds, shadows.bytes)
     # Equal things are made once, one after another, and kept: only the largest counts twice.
     return cost + Cost(bytes=textures.making)
 
@@ -168,7 +196,19 @@ def _seconds_per_sample(maps: Sequence[MAPS]) -> float:
 def _seconds_per_look(item: MAPS) -> float:
     if isinstance(item, ParallaxMap):
         return SECONDS_PER_PARALLAX_STEP * (1 if item.method == "offset" else item.steps)
-    return SECONDS_PER_MAP_SAMPLE[item.filter]
+    if item.filter == "formula":
+        once = sum(_seconds_per_formula(part) for _, part in parts(item.texture))
+    else:
+        once = SECONDS_PER_MAP_SAMPLE[item.filter]
+    return once * (3 if isinstance(item.coordinates, TriplanarSpec) else 1)
+
+
+def _seconds_per_formula(part: Schema) -> float:
+    """Return what a pixel of one formula takes, about, told from one of a picture."""
+    pixels = 1 << 20
+    if not isinstance(part, TextureSpec):
+        return 0.0
+    return SECONDS_PER_MAP_SAMPLE["formula"] + 20 * part.cost(pixels).seconds / pixels
 
 
 def _moved(placed: Affine | None, middle: Vector3) -> Affine | None:
@@ -202,15 +242,34 @@ class _WornTextures:
         """Return the cost of what these maps need and no earlier ones did."""
         cost = Cost()
         for item in maps:
-            picture = f"{type(item).__name__} {item.texture.model_dump_json()}"
+            if not isinstance(item, Cookie) and item.filter == "formula":
+                compiled = sum(isinstance(part, TextureSpec) for _, part in parts(item.texture))
+                cost += Cost(compiled * SECONDS_TO_COMPILE_A_FORMULA)
+                continue
+            carved = not isinstance(item, Cookie) and is_carved(item)
+            picture = f"{type(item).__name__} {carved} {item.texture.model_dump_json()}"
             if picture not in self._made:
                 self._made.add(picture)
-                picture_cost = _textures(
-                    item.texture, self._facts, math.prod(item.texture.surface_size)
-                )
-                self.making = max(self.making, picture_cost.bytes)
+                if carved:
+                    texels = worn_depth(item.texture) ** 3
+                    making = volume_of(item.texture, texels)
+                else:
+                    making = _textures(item.texture, self._facts, item.texture.surface_size)
+                self.making = max(self.making, making.bytes)
+                cost += Cost(making.seconds)
+            form = item.filter if item.filter in TABLE_FILTERS else getattr(item, "pyramid", "box")
+            if (
+                stored := f"{picture} {form} {item.wrap if form != 'box' else ''}"
+            ) not in self._made:
+                self._made.add(stored)
                 texels = _texels_worn(item.texture, self._facts)
-                cost += Cost(picture_cost.seconds, texels * BYTES_PER_KEPT_TEXEL)
+                if carved:
+                    texels = worn_depth(item.texture) ** 3
+                if form == "summed_area":
+                    texels *= 2 ** item.wrap.count("mirror")
+                    self.making = max(self.making, float(texels * BYTES_TO_SUM_A_TEXEL))
+                kept = BYTES_PER_TABLE_TEXEL.get(form, BYTES_PER_KEPT_TEXEL)
+                cost += Cost(texels * SECONDS_PER_STORED_TEXEL[form], float(texels * kept))
             if (program := f"{picture} {item.filter} {item.wrap}") not in self._made:
                 self._made.add(program)
                 cost += Cost(SECONDS_TO_COMPILE_A_MAP)

@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from api_schemas.base import UNIQUE_ITEMS, WHOLE, Schema
+from api_schemas.turntable import Turntable
 
 SIDE_MAX = 16384
 """Pixels along a side of anything: the largest texture OpenGL takes."""
@@ -16,6 +17,7 @@ Format = Literal["png", "exr"]
 MediaType = Literal["image/png", "image/x-exr"]
 PngBits = Literal[8, 16]
 ExrType = Literal["half", "float"]
+PixelFilter = Literal["box", "tent", "gaussian"]
 ToneCurve = Literal["none", "reinhard", "aces"]
 
 Layer = Literal[
@@ -29,7 +31,12 @@ Layer = Literal[
     "object_id",
     "material_id",
     "coverage",
+    "footprint",
+    "texel_density",
+    "shading_difference",
     "light_visibility",
+    "crypto_object",
+    "crypto_material",
 ]
 
 LayerName = Annotated[str, Field(pattern="^[a-z][a-z0-9_]{0,31}$")]
@@ -37,6 +44,12 @@ LayerName = Annotated[str, Field(pattern="^[a-z][a-z0-9_]{0,31}$")]
 
 MEDIA_TYPES: Mapping[Format, MediaType] = {"png": "image/png", "exr": "image/x-exr"}
 """The media type of each file format."""
+
+
+def near_square(cells: int, size: list[int]) -> int:
+    """Return how many cells of a size a row has, so that all rows make about a square."""
+    width, height = size
+    return max(1, min(cells, round(math.sqrt(cells * height / width))))
 
 
 class Output(Schema):
@@ -82,6 +95,12 @@ class TextureOutput(Output):
         "its own layers, by name. An EXR holds all that are named, as channels; a PNG shows one "
         "layer instead of the picture.",
     )
+    mipmaps: bool = Field(
+        default=False,
+        description="Whether an EXR is cut into tiles of 64 pixels and holds the picture at half, "
+        "a quarter ... of its size too, each pixel the mean of what it covers: what renderers and "
+        "texture caches (.tx) read a part at a time.",
+    )
     slices: Annotated[int, Field(ge=1, le=1024), WHOLE] | None = Field(
         default=None,
         description="Makes a solid texture as a volume of so many slices, the first one at w = 0; "
@@ -98,8 +117,7 @@ class TextureOutput(Output):
     def columns(self) -> int:
         """Slices in a row of the file."""
         slices = self.slices if self.slices and self.arrangement == "atlas" else 1
-        width, height = self.size
-        return max(1, min(slices, round(math.sqrt(slices * height / width))))
+        return near_square(slices, self.size)
 
     @property
     def file_size(self) -> tuple[int, int]:
@@ -115,6 +133,12 @@ class RenderOutput(Output):
     supersampling: Annotated[int, Field(ge=1, le=8), WHOLE] = Field(
         default=2, description="Samples per pixel along each side: more are smoother and slower."
     )
+    pixel_filter: PixelFilter = Field(
+        default="box",
+        description="How the samples round a pixel become its light: the mean of its own, a tent "
+        "that falls to the middles of its neighbours, or a Gaussian three pixels wide. The latter "
+        "two are smoother and cost samples beyond the edges of the picture.",
+    )
     layers: Annotated[list[Layer], Field(max_length=16), UNIQUE_ITEMS] = Field(
         default=[],
         json_schema_extra={"uniqueItems": True},
@@ -126,9 +150,40 @@ class RenderOutput(Output):
         "samples; object_id, from 1 in the order of drawing, depth first; material_id, from 1 in "
         "the same order, equal surfaces together; coverage, the share of the pixel that things "
         "cover; light_visibility, the share of the lamps' light that shadows leave, 0 where a "
-        "surface faces away. All but albedo and coverage belong to the nearest sample, are never "
+        "surface faces away; crypto_object and crypto_material, up to six things of a "
+        "pixel with the share of each, as Cryptomatte has them, called by the nodes' names (else "
+        "box 3, sphere 4) and material 1, material 2; footprint, how far uv go from this pixel to "
+        "the next one, X and Y to the right, Z and W upwards: of waves, a pixel holds those of "
+        "fewer than 1 / (2 footprint) cycles per tile; texel_density, how many texels of the "
+        "surface's main picture fit along a pixel, 0 without one: below 1 the picture is "
+        "magnified, from 2 on it is as sharp as can be; shading_difference, the light of the "
+        "picture, whose samples are shaded and then averaged, less that of maps averaged over the "
+        "pixel and then shaded once: what a filter cannot know of highlights and bumps, and edges. "
+        "All but this one, albedo, coverage and shares belong to the nearest sample, are never "
         "averaged and 0 where nothing is; what is blended leaves them to what is behind it. A PNG "
         "shows one layer instead of the colour: albedo like a picture, directions as n / 2 + 1/2, "
-        "depth as 1 / (1 + Z), uv as red and green, an id as its own code, position and coverage "
-        "as they are, cut off outside of 0..1.",
+        "depth as 1 / (1 + Z), uv as red and green, an id as its own code, those of Cryptomatte as "
+        "a colour each, footprint as 1 + log2(x) / 16 of its lengths to the right and upwards, "
+        "texel_density as x / (1 + x), shading_difference as d / 2 + 1/2, position and coverage as "
+        "they are, cut off outside of 0..1.",
     )
+    turntable: Turntable | None = Field(
+        default=None, description="Several frames of the scene, which turns; size is that of one."
+    )
+
+    @property
+    def frames(self) -> int:
+        """How many times the scene is drawn."""
+        return len(self.turntable.drawn) if self.turntable else 1
+
+    @property
+    def columns(self) -> int:
+        """Frames in a row of the file."""
+        return near_square(self.turntable.cells if self.turntable else 1, self.size)
+
+    @property
+    def file_size(self) -> tuple[int, int]:
+        """Width and height of the file: of all frames, where they lie beside each other."""
+        cells = self.turntable.cells if self.turntable else 1
+        rows = math.ceil(cells / self.columns)
+        return self.size[0] * self.columns, self.size[1] * rows

@@ -11,6 +11,7 @@ from typing import Literal
 
 from api_schemas.families import TextureSpec
 from api_schemas.textures.image import ImageSpec
+from api_schemas.walk import outermost
 
 Size = tuple[int, int]
 """Width and height in pixels."""
@@ -24,7 +25,8 @@ class MadeAt:
     """Marks a field with a texture that is not made at its parent's size.
 
     Attributes:
-        size: `own`: that of its own pixels, unless the spec's `exemplar_size` says another.
+        size: `own`: that of its own pixels; of the field `exemplar` the spec's `exemplar_size`
+            may say another.
             `exemplar`: that of the field `exemplar`. `result`: the spec's own `size`.
     """
 
@@ -49,6 +51,31 @@ def own_size(texture: TextureSpec, measure: Callable[[ImageSpec], Size]) -> Size
     return max(_sizes(texture, measure), key=math.prod, default=FUNCTION_SIZE)
 
 
+def size_within(
+    texture: TextureSpec, name: str, size: Size, measure: Callable[[ImageSpec], Size]
+) -> Size:
+    """Return the size at which the texture in a field of another one is made.
+
+    Args:
+        texture: Of any technique.
+        name: Of its field.
+        size: At which it is made itself.
+        measure: Tells the size of an uploaded picture.
+    """
+    field = type(texture).model_fields.get(name)
+    metadata = field.metadata if field else []
+    rule = next((item.size for item in metadata if isinstance(item, MadeAt)), None)
+    if rule is None:
+        return texture.inner_size(size)
+    if rule == "result":
+        return own_size(texture, measure)
+    source = name if rule == "own" else "exemplar"
+    if source == "exemplar" and (wanted := getattr(texture, "exemplar_size", None)):
+        width, height = wanted
+        return (width, height)
+    return own_size(getattr(texture, source), measure)
+
+
 def _sizes(texture: TextureSpec, measure: Callable[[ImageSpec], Size]) -> Iterator[Size]:
     if isinstance(texture, ImageSpec):
         yield measure(texture)
@@ -56,36 +83,6 @@ def _sizes(texture: TextureSpec, measure: Callable[[ImageSpec], Size]) -> Iterat
         width, height = getattr(texture, "size")  # noqa: B009 every sized technique has one
         yield (width, height)
     else:
-        for inner in _within(texture).values():
-            yield from _sizes(inner, measure)
-
-
-def sizes_within(
-    texture: TextureSpec, size: Size, measure: Callable[[ImageSpec], Size]
-) -> dict[str, Size]:
-    """Return the size at which each texture directly within another is made, by field name.
-
-    Args:
-        texture: Of any technique.
-        size: At which it is made itself.
-        measure: Tells the size of an uploaded picture.
-    """
-    within = _within(texture)
-    sizes = {}
-    for name, inner in within.items():
-        metadata = type(texture).model_fields[name].metadata
-        rule = next((item.size for item in metadata if isinstance(item, MadeAt)), None)
-        if rule is None:
-            sizes[name] = size
-        elif rule == "result":
-            sizes[name] = own_size(texture, measure)
-        else:
-            source = inner if rule == "own" else within["exemplar"]
-            wanted = getattr(texture, "exemplar_size", None)
-            sizes[name] = tuple(wanted) if wanted else own_size(source, measure)
-    return sizes
-
-
-def _within(texture: TextureSpec) -> dict[str, TextureSpec]:
-    values = {name: getattr(texture, name) for name in type(texture).model_fields}
-    return {name: value for name, value in values.items() if isinstance(value, TextureSpec)}
+        for name in type(texture).model_fields:
+            for inner in outermost(getattr(texture, name), TextureSpec):
+                yield from _sizes(inner, measure)

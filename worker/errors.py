@@ -6,8 +6,8 @@
         ├── AssetMissingError   asset_missing | asset_file_missing
         └── RenderError         render_failed | camera_degenerate | light_degenerate
                                 | transform_singular | model_part_unknown
-                                | coordinates_missing | over_budget
-                                | environment_texels
+                                | coordinates_missing | coordinates_unsuited
+                                | over_budget | environment_texels | exemplar_unusable
 
 A message says what is wrong, which value and which bound; it never repeats the input.
 `as_failure` is how an error crosses processes: as data, never as a pickled exception.

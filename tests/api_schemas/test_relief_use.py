@@ -2,6 +2,7 @@ import pytest
 
 from api_schemas.assets import ASSET_FACTS
 from api_schemas.estimate import estimate
+from api_schemas.feasibility import obstacles
 from api_schemas.relief import DISPLACED_TRIANGLES_MAX, Displacement
 from api_schemas.relief_use import relief_misuses
 from api_schemas.requests import RenderRequest
@@ -132,3 +133,43 @@ def test_looking_into_a_relief_costs_its_steps():
         return estimate(request(mesh=PLANE, surface=surface), {}).seconds
 
     assert cost(steps=128) > cost(steps=8) > cost(method="offset")
+
+
+@pytest.mark.parametrize(
+    ("coordinates", "suits"),
+    [
+        ({"technique": "position"}, True),
+        ({"technique": "normal", "frame": "object"}, True),
+        ({"technique": "normal"}, False),
+        ({"technique": "cylindrical", "frame": "view"}, False),
+        ({"technique": "reflection"}, False),
+        ({"technique": "triplanar"}, False),
+    ],
+)
+def test_vertices_have_but_some_coordinates(coordinates, suits):
+    body = request(mesh=PLANE, displacement={**NOISE, "coordinates": coordinates})
+
+    pointer = "/scene/nodes/0/displacement/coordinates"
+    assert found(body) == ([] if suits else [("coordinates_unsuited", pointer)])
+
+
+@pytest.mark.parametrize("name", ["height", "parallax"])
+def test_a_relief_is_read_at_one_place(name):
+    relief = {**NOISE, "coordinates": {"technique": "triplanar"}}
+    body = request(mesh=PLANE, surface={"technique": "phong", name: relief})
+
+    pointer = f"/scene/nodes/0/surface/{name}/coordinates"
+    assert [(item.code, item.pointer) for item in obstacles(body)] == [
+        ("coordinates_unsuited", pointer)
+    ]
+
+
+@pytest.mark.parametrize("name", ["height", "parallax", "bump"])
+def test_a_relief_does_not_lie_on_the_faces_of_a_cube(name):
+    faces = {"coordinates": {"technique": "normal"}, "layout": {"technique": "cube"}}
+    body = request(mesh=PLANE, surface={"technique": "phong", name: {**NOISE, **faces}})
+
+    pointer = f"/scene/nodes/0/surface/{name}/layout"
+    assert [(item.code, item.pointer) for item in obstacles(body)] == [
+        ("layout_impossible", pointer)
+    ]

@@ -30,9 +30,9 @@ def join_layers(layers: Mapping[str, Image], pixel_type: ExrType) -> Channels:
 
     The layer named "" is the picture itself: its channels are R, G, B, A (or Y, A; data R, G). A
     layer "N" has N.R, N.G, N.B, N.A for colour, N.X, N.Y, N.Z, N.W for data, and is called just N
-    if it has one channel; "uv" has uv.U and uv.V. The picture and colour layers have the asked
-    type; named data (depth, ids, positions) is always float, since half holds no whole number
-    above 2048.
+    if it has one channel; "uv" has uv.U and uv.V, those of Cryptomatte have R, G, B, A. The
+    picture and colour layers have the asked type; named data (depth, ids, positions) is always
+    float, since half holds no whole number above 2048.
 
     In half, finite values beyond 65504 become 65504 instead of infinity; NaN and infinity stay.
 
@@ -63,6 +63,8 @@ def _names(layer: str, image: Image) -> list[str]:
         return [layer]
     if layer == "uv":
         return [f"{layer}.{letter}" for letter in "UV"]
+    if layer.startswith("Crypto"):
+        return [f"{layer}.{letter}" for letter in "RGBA"[: image.channels]]
     letters = (_COLOUR_NAMES if image.meaning == "colour" else _LAYER_DATA_NAMES)[image.channels]
     return [f"{layer}.{letter}" for letter in letters]
 

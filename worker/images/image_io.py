@@ -16,6 +16,7 @@ import tempfile
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, TypedDict
 
 import numpy as np
@@ -34,7 +35,8 @@ from worker.images.file_kinds import FileKind, sniff
 from worker.images.image import Image
 from worker.images.linearise import linearise
 from worker.images.png_filters import choose_png_filter
-from worker.images.scanlines import Scanlines
+from worker.images.pyramids import mip_chain
+from worker.images.scanlines import Scanlines, write_levels
 from worker.images.windows import place, turn
 
 OpenImageIO.attribute("limits:resolution", SIDE_MAX)
@@ -164,10 +166,13 @@ def write_exr(
     pixel_type: ExrType,
     digest: str,
     version: str,
+    mipmaps: bool = False,
+    attributes: Mapping[str, str] = MappingProxyType({}),
 ) -> None:
     """Write an OpenEXR file: linear, premultiplied, zip; layers as `join_layers` names them.
 
-    Attributes `texloom:digest` and `texloom:version` say what made it.
+    Attributes `texloom:digest` and `texloom:version` say what made it. With mipmaps it is the
+    tiled kind that texture caches read, and is held whole while it is written.
 
     Args:
         bands: The same layers of the picture's rows from the top, some at a time.
@@ -176,6 +181,8 @@ def write_exr(
         pixel_type: As `join_layers` takes it.
         digest: Of the request.
         version: Of this program.
+        mipmaps: Whether the box means of `mip_chain` are written as well, in tiles.
+        attributes: What else the file says of itself.
 
     Raises:
         ValueError: The layers of a band are none, or of different sizes.
@@ -195,9 +202,15 @@ def write_exr(
     spec.attribute("DateTime", "1970:01:01 00:00:00")
     spec.attribute("texloom:digest", digest)
     spec.attribute("texloom:version", version)
+    for name, text in attributes.items():
+        spec.attribute(name, text)
     if any(image.meaning == "colour" for image in layers.values()):
         spec.attribute("oiio:ColorSpace", _COLOUR_SPACES["linear"])
         spec.attribute("chromaticities", OpenImageIO.TypeDesc("float[8]"), REC709_CHROMATICITIES)
+    if mipmaps:
+        parts = [channels.pixels, *(join_layers(layers, pixel_type).pixels for layers in rest)]
+        write_levels(path, spec, mip_chain(np.concatenate(parts)))
+        return
     with Scanlines("openexr", path, spec) as file:
         file.write(channels.pixels)
         for layers in rest:

@@ -34,7 +34,12 @@ class Unpacked:
     """Asks for the numbers that four bytes hold."""
 
 
-Preparation = Decoded | Slopes | Unpacked
+@dataclass(frozen=True, slots=True)
+class Flat:
+    """Asks for a picture as it is, and never for a volume."""
+
+
+Preparation = Decoded | Slopes | Unpacked | Flat
 
 
 def prepared(image: Image, preparation: Preparation | None) -> Image:
@@ -43,7 +48,7 @@ def prepared(image: Image, preparation: Preparation | None) -> Image:
     Decoded: two channels, tilts along u and v. Slopes: three channels: the height, and its change
     per tile along u and along v. Unpacked: one channel. What is no number is 0.
     """
-    if preparation is None:
+    if preparation is None or isinstance(preparation, Flat):
         return image
     if isinstance(preparation, Unpacked):
         return Image(unpacked(image.pixels)[..., np.newaxis], "data")

@@ -1,7 +1,8 @@
-"""Pictures read at any place, as shaders read them: wrapped, smooth, in levels of detail."""
+"""Pictures and volumes read at any place, as shaders read them: wrapped, smooth, in levels."""
 
 from __future__ import annotations
 
+from itertools import product
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -23,20 +24,21 @@ _FARTHEST = 2.0**40
 def sample(
     levels: Sequence[NDArray[np.float32]],
     places: Floats,
-    wrap: tuple[Wrap, Wrap],
+    wrap: Sequence[Wrap],
     *,
     border: float = 0.0,
     smooth: bool = True,
     detail: Floats | None = None,
 ) -> Floats:
-    """Read one channel of a picture at many places.
+    """Read one channel of a picture, or of a volume, at many places.
 
     Args:
-        levels: (height, width) each, level 0 first, row 0 at the top.
-        places: (n, 2), u to the right and v up, one tile from 0 to 1.
-        wrap: What lies beyond the tile along u and v.
+        levels: (height, width) or (depth, height, width) each, level 0 first, row 0 at the top.
+        places: (n, 2) or (n, 3): u to the right, v up, and w from the first slice to the last one;
+            one tile from 0 to 1.
+        wrap: What lies beyond the tile along each.
         border: What is read there where that is a border.
-        smooth: Blend the four texels round a place; else take the one that covers it.
+        smooth: Blend the texels round a place; else take the one that covers it.
         detail: (n,), the level wanted for each place, between two of which is blended; 0 without.
 
     Returns:
@@ -59,30 +61,33 @@ def sample(
 
 
 def _read(
-    picture: NDArray[np.float32],
+    texels: NDArray[np.float32],
     places: Floats,
-    wrap: tuple[Wrap, Wrap],
+    wrap: Sequence[Wrap],
     border: float,
     smooth: bool,
 ) -> Floats:
-    height, width = picture.shape
-    texels = places * (width, height) - (0.5 if smooth else 0.0)
-    corner = np.floor(texels)
-    right, up = (texels - corner).T
-    column, row = corner.astype(np.int64).T
+    at = places * texels.shape[::-1] - (0.5 if smooth else 0.0)
+    corner = np.floor(at)
+    share = at - corner
+    found = np.zeros(len(places))
+    for step in product((0, 1), repeat=places.shape[1]) if smooth else [(0,) * places.shape[1]]:
+        weight = np.prod(np.where(step, share, 1 - share), axis=1) if smooth else 1.0
+        found += weight * _texel(texels, corner.astype(np.int64) + step, wrap, border)
+    return found
 
-    def texel(column: Indices, row: Indices) -> Floats:
-        x, outside_x = _wrapped(column, width, wrap[0])
-        y, outside_y = _wrapped(row, height, wrap[1])
-        values = picture[height - 1 - y, x].astype(np.float64)
-        return np.where(outside_x | outside_y, border, values)
 
-    if not smooth:
-        return texel(column, row)
-    lower = texel(column, row) * (1 - right) + texel(column + 1, row) * right
-    upper = texel(column, row + 1) * (1 - right) + texel(column + 1, row + 1) * right
-    blended: Floats = lower * (1 - up) + upper * up
-    return blended
+def _texel(
+    texels: NDArray[np.float32], index: Indices, wrap: Sequence[Wrap], border: float
+) -> Floats:
+    """Return the texels (n,) at numbers (n, 2) or (n, 3), counted from the left and from below."""
+    inside, outside = [], np.zeros(len(index), dtype=bool)
+    for number, length, mode in zip(index.T, texels.shape[::-1], wrap, strict=True):
+        within, beyond = _wrapped(number, length, mode)
+        inside.append(within)
+        outside |= beyond
+    inside[1] = texels.shape[-2] - 1 - inside[1]
+    return np.where(outside, border, texels[tuple(inside[::-1])].astype(np.float64))
 
 
 def _wrapped(index: Indices, length: int, wrap: Wrap) -> tuple[Indices, NDArray[np.bool_]]:

@@ -1,6 +1,7 @@
-"""A picture file that is written from the top, some rows at a time."""
+"""Picture files: written from the top, some rows at a time, or in tiles and at every size."""
 
 import os
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, Self
 
@@ -9,6 +10,8 @@ import OpenImageIO
 from numpy.typing import NDArray
 
 from worker.images.png_chunks import is_whole_png
+
+TILE = 64
 
 
 class Scanlines:
@@ -56,7 +59,47 @@ class Scanlines:
             raise self._failure()
 
     def _failure(self) -> OSError:
-        if self._path.parent.is_dir():  # nobody says why; asking for room tells of a full disk
-            with self._path.open("ab") as rest:
-                os.posix_fallocate(rest.fileno(), 0, self._bytes)
-        return OSError(f"cannot write the {self._format} file: {self._file.geterror()}")
+        return _failure_of(self._file, self._format, self._path, self._bytes)
+
+
+def write_levels(
+    path: Path, spec: OpenImageIO.ImageSpec, levels: Sequence[NDArray[np.float32]]
+) -> None:
+    """Write a mip chain, the largest picture first.
+
+    Args:
+        path: Where the file goes.
+        spec: Of the largest picture, for lines; it is changed.
+        levels: (height, width, channels) each, a side of n pixels followed by max(1, n // 2).
+
+    Raises:
+        OSError: The file cannot be written.
+    """
+    room = 2 * spec.image_bytes(True)
+    spec.tile_width = spec.tile_height = TILE
+    spec.tile_depth = 1
+    # These make OpenImageIO keep room for levels, and caches repeat the picture.
+    spec.attribute("textureformat", "Plain Texture")
+    spec.attribute("wrapmodes", "periodic,periodic")
+    file = OpenImageIO.ImageOutput.create("openexr")
+    if file is None:
+        raise OSError("this OpenImageIO cannot write openexr")
+    for index, level in enumerate(levels):
+        spec.height, spec.width = spec.full_height, spec.full_width = level.shape[:2]
+        opened = file.open(str(path), spec, "AppendMIPLevel" if index else "Create")
+        if not (opened and file.write_image(np.ascontiguousarray(level))):
+            raise _failure_of(file, "openexr", path, room)
+    if not file.close():
+        raise _failure_of(file, "openexr", path, room)
+
+
+def _failure_of(file: OpenImageIO.ImageOutput, format_name: str, path: Path, room: int) -> OSError:
+    """Return why a file of up to `room` bytes cannot be written.
+
+    Raises:
+        OSError: The disk is full.
+    """
+    if path.parent.is_dir():  # nobody says why; asking for room tells of a full disk
+        with path.open("ab") as rest:
+            os.posix_fallocate(rest.fileno(), 0, room)
+    return OSError(f"cannot write the {format_name} file: {file.geterror()}")

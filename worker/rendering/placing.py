@@ -17,7 +17,7 @@ from worker.geometry import primitives
 from worker.geometry.mesh import Mesh
 from worker.geometry.transforms import Matrix, parent_from_node
 from worker.models.model import Model, Part
-from worker.rendering.displacing import levels_of, with_relief
+from worker.rendering.displacing import levels_of, relief_of, with_relief
 from worker.rendering.model_changes import seen_parts
 from worker.rendering.shading import Selection
 from worker.rendering.staging import PlacedModel
@@ -37,7 +37,15 @@ class ModelReader(Protocol):
 class Placed:
     """A mesh that is kept or can be made, its surface, and where it stands.
 
-    With a selection the surface is only where that says.
+    Attributes:
+        key: Equal keys mean the same mesh.
+        mesh: Makes it.
+        surface: What it wears.
+        world_from_object: Where it stands.
+        node: Which node of the request it is, or is a part of.
+        name: What people call it.
+        thing: Its number, from 1.
+        selection: Where the surface is, if not everywhere.
     """
 
     key: str
@@ -45,6 +53,7 @@ class Placed:
     surface: SurfaceSpec
     world_from_object: Matrix
     node: Node
+    name: str
     thing: int = 0
     selection: Selection | None = None
 
@@ -83,7 +92,7 @@ def place(
         elif node.mesh is not None:
             key = node.mesh.model_dump_json()
             make = partial(primitives.build, node.mesh)
-            found = [Placed(key, make, node.surface or _MATT_GREY, matrix, node)]
+            found = [Placed(key, make, node.surface or _MATT_GREY, matrix, node, node.name or "")]
             triangles = node.mesh.triangles
         else:
             continue
@@ -91,7 +100,8 @@ def place(
             found = list(_displaced(found, node.displacement, triangles, maker))
         for item in found:
             things += 1
-            placed += _selected(replace(item, thing=things))
+            name = item.name or f"{node.mesh.type} {things}"
+            placed += _selected(replace(item, thing=things, name=name))
     return placed, models
 
 
@@ -123,6 +133,7 @@ def _parts(node: Node, mesh: ModelMesh, model: Model, matrix: Matrix) -> Iterato
             surface=node.surface or worn or _MATT_GREY,
             world_from_object=matrix @ part.matrix,
             node=node,
+            name="/".join(name for name in (node.name, _name_of(part, model)) if name),
         )
 
 
@@ -130,10 +141,10 @@ def _displaced(
     items: list[Placed], spec: Displacement, triangles: int, maker: TextureMaker
 ) -> Iterator[Placed]:
     levels = levels_of(spec, triangles)
-    image = functools.cache(lambda: maker(spec.texture, "data"))
+    texture = functools.cache(lambda: relief_of(spec, maker))
 
     def moved(make: Callable[[], Mesh]) -> Mesh:
-        return with_relief(make(), spec, levels, image())
+        return with_relief(make(), spec, levels, texture())
 
     for item in items:
         key = f"{item.key} {levels} {spec.model_dump_json()}"
@@ -142,3 +153,7 @@ def _displaced(
 
 def _mesh_of(part: Part) -> Mesh:
     return part.mesh
+
+
+def _name_of(part: Part, model: Model) -> str:
+    return "" if part.node is None else model.node_names[part.node]

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from worker.geometry.transforms import Matrix, normal_matrix
 from worker.rendering.draw_order import back_to_front, nearness
 from worker.rendering.gl_context import GL, floats
+from worker.rendering.infinite_planes import eye_side
 from worker.rendering.programs import Program
 from worker.rendering.shading import Shading
 from worker.rendering.sky import Sky
@@ -61,6 +62,8 @@ class Drawable:
         material: The number of the surface, from 1.
         thing: The number of what it is or is a part of, from 1.
         casts_shadows: Whether it keeps light away.
+        name: What people call it.
+        sky: Light from all around that is its own.
     """
 
     mesh: VertexArray
@@ -69,6 +72,15 @@ class Drawable:
     material: int
     thing: int
     casts_shadows: bool
+    name: str
+    sky: Sky | None = None
+
+    def corners(self) -> NDArray[np.float64]:
+        """Give the corners of a box that holds it: (8, 3) in the world."""
+        local = np.stack(np.meshgrid(*self.mesh.bounds.T), axis=-1).reshape(-1, 3)
+        matrix = self.world_from_object
+        corners: NDArray[np.float64] = local @ matrix[:3, :3].T + matrix[:3, 3]
+        return corners
 
 
 Background: TypeAlias = Shading | Sky | tuple[float, ...]
@@ -99,6 +111,7 @@ class SurfacePrimitive(pyrender.Primitive):  # type: ignore[misc]
         number: Its place among the drawables.
         thing: Its object id.
         mirrored: Whether its transform turns the winding of triangles.
+        clockwise: Whether the outer sides of triangles are wound clockwise on the screen.
         hidden: Which sides are left out in each pass: outer, inner, or none (None).
         elements: Its triangles, lines or points from back to front, where that matters.
     """
@@ -114,6 +127,7 @@ class SurfacePrimitive(pyrender.Primitive):  # type: ignore[misc]
         self.number = number
         self.thing = drawable.thing
         self.mirrored = mirrored
+        self.clockwise = mirrored
         self.hidden = (GL.GL_BACK,)
         self.elements = None
         blended = drawable.shading.layout.alpha_mode == "blend"
@@ -131,6 +145,15 @@ class SurfacePrimitive(pyrender.Primitive):  # type: ignore[misc]
                 self.hidden = (None,)
             towards_eye = drawable.world_from_object[:3, :3].T @ view.world_from_camera[:3, 2]
             self.elements = back_to_front(self.mesh.positions, self.mesh.elements, towards_eye)
+        if self.mesh.tile is not None:
+            side = eye_side(
+                self.mesh.tile,
+                drawable.world_from_object,
+                view.world_from_camera,
+                orthographic=view.orthographic,
+            )
+            self.clockwise = side < 0
+            self.hidden = self.hidden if side else ()
 
 
 class PlacedNode(pyrender.Node):  # type: ignore[misc]
@@ -204,14 +227,14 @@ class FlatScene(pyrender.Scene):  # type: ignore[misc]
         self.casters = [nodes[number] for number in order if drawables[number].casts_shadows]
 
     def corners(self) -> NDArray[np.float64]:
-        """Give the corners of boxes that hold all that is drawn: (n, 3) in the world."""
-        boxes = [
-            np.stack(np.meshgrid(*drawable.mesh.bounds.T), axis=-1).reshape(-1, 3)
-            @ drawable.world_from_object[:3, :3].T
-            + drawable.world_from_object[:3, 3]
-            for drawable in self._drawables
-        ]
+        """Give the corners of boxes that hold all that has an end: (n, 3) in the world."""
+        ended = (drawable for drawable in self._drawables if drawable.mesh.tile is None)
+        boxes = [drawable.corners() for drawable in ended]
         return np.concatenate([np.empty((0, 3)), *boxes])
+
+    def sky_of(self, primitive: SurfacePrimitive) -> Sky | None:
+        """Return the light from all around that a primitive gets."""
+        return self._drawables[primitive.number].sky or self.sky
 
     def place(self, program: Program, primitive: SurfacePrimitive) -> None:
         """Tell the bound program where a primitive stands to the eye."""

@@ -10,11 +10,13 @@ _NORMALS = {
 }
 
 
-def relief_chunks(relief: ReliefLayout) -> list[str]:
-    """Return the chunks that a relief needs."""
-    chunks = []
+def relief_chunks(layout: ShadingLayout) -> list[str]:
+    """Return the chunks that a surface's relief needs."""
+    relief, chunks = layout.relief, []
     if relief.parallax is not None:
         chunks.append("lib/parallax.glsl")
+        if any(lookup.returns == "Triplanar" for lookup in layout.lookups):
+            chunks.append("lib/moved_sides.glsl")
     if relief.normal is not None:
         chunks.append(_NORMALS[relief.normal_space][0])
     if relief.bump is not None:

@@ -10,7 +10,7 @@ from api_schemas.coordinates.uv import UvSpec
 from api_schemas.families import SurfaceSpec
 from api_schemas.maps import Map, NormalMap
 from api_schemas.relief import AnyMap, BumpMap, HeightMap, ParallaxMap, TangentFrames
-from worker.images.relief import Decoded, Preparation, Slopes
+from worker.images.relief import Decoded, Flat, Preparation, Slopes
 from worker.rendering.lookups import turn
 from worker.rendering.shading_layout import ReliefLayout
 
@@ -55,7 +55,7 @@ def lay_out(surface: SurfaceSpec, look_up: LookUp) -> tuple[ReliefLayout, dict[s
         height = look_up(surface.height, Slopes(channel, (u, v)))
     if surface.parallax is not None:
         uniforms |= _parallax(surface.parallax)
-        parallax = look_up(surface.parallax, None)
+        parallax = look_up(surface.parallax, Flat())
     relief = ReliefLayout(
         normal=normal,
         normal_space=surface.normal.space if surface.normal else "tangent",

@@ -3,12 +3,12 @@
 import atexit
 import functools
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from typing import Any, Self, TypeAlias
+from types import MappingProxyType
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from api_schemas.families import Meaning, TextureSpec
 from api_schemas.language import FAMILIES
@@ -17,31 +17,35 @@ from api_schemas.output import RenderOutput
 from api_schemas.scene import Scene
 from api_schemas.textures.constant import ConstantSpec
 from worker.errors import RenderError
+from worker.geometry.transforms import Matrix
 from worker.images.image import Image
 from worker.models.model import Model
+from worker.rendering.bands import Band, OpenBand
+from worker.rendering.cryptomatte import Mattes, attributes, mattes_of
 from worker.rendering.gl_context import GLContext, check
-from worker.rendering.lighting import Lighting, lighting
-from worker.rendering.packing import PICTURE, PLACES
+from worker.rendering.lighting import lighting
+from worker.rendering.packing import SHADING_DIFFERENCE
+from worker.rendering.pixel_filters import apron
 from worker.rendering.placing import ModelReader
 from worker.rendering.pyrender_adapter import FloatRenderer
 from worker.rendering.pyrender_scene import FlatScene
-from worker.rendering.scene_builder import SceneBuilder
+from worker.rendering.scene_builder import BuiltScene, SceneBuilder
 from worker.rendering.shading import surface_fields
-from worker.rendering.targets import Target, TargetPair
+from worker.rendering.surroundings import with_surroundings
+from worker.rendering.targets import TargetPair
 from worker.rendering.texture_maker import TextureMaker
 from worker.rendering.tiles import (
     LAYERED_SAMPLES_MAX,
     SAMPLES_MAX,
-    Tile,
     bands,
     tile_from_picture,
     tile_size,
+    widened,
 )
+from worker.rendering.turntable import layers, sheet, turns_of
 from worker.stages import Report
 
 _GREY = ConstantSpec(technique="constant", value=[0.5, 0.5, 0.5])
-Band: TypeAlias = Mapping[str, Image]
-"""Some rows of the picture, as PICTURE, and of each layer that was asked for, by its name."""
 
 
 @dataclass(slots=True)
@@ -54,6 +58,7 @@ class Rendering:
         counts: triangles and texels.
         timings: Milliseconds, whole after the last band: build_ms, draw_ms, and jit_ms for linking
             programs and their first draws.
+        attributes: What a file says beside the pixels, by name.
         report: What was found out about the scene while it was built; JSON-able.
         warnings: What uploaded models ask for and do not get.
     """
@@ -61,6 +66,7 @@ class Rendering:
     bands: Iterator[Band]
     counts: dict[str, int]
     timings: dict[str, float]
+    attributes: dict[str, str]
     report: dict[str, Any]
     warnings: tuple[str, ...]
 
@@ -116,93 +122,106 @@ def render(
     width, height = output.size
     report(0.0, "build")
     start = time.perf_counter()
+    turns = turns_of(output.turntable)
     built = engine.builder.build(
-        scene, width / height, textures, models, tangents="tangent" in output.layers
+        scene,
+        width / height,
+        textures,
+        models,
+        tangents="tangent" in output.layers,
+        turns=turns,
     )
-    placed = FlatScene(built.drawables, built.view, built.background, built.sky)
-    eye = built.view.world_from_camera[:3, 3]
-    lights = lighting(
-        built.lights,
-        eye,
-        built.cookies,
-        placed.corners,
-        visibility="light_visibility" in output.layers,
-    )
-    timings = {"build_ms": _milliseconds(time.perf_counter() - start)}
+    built = with_surroundings(built, engine.renderer, engine.targets, engine.builder, textures)
+    timings = {
+        "build_ms": _milliseconds(time.perf_counter() - start),
+        "draw_ms": 0.0,
+        "jit_ms": 0.0,
+    }
     counts = {"triangles": built.triangles, "texels": built.texels}
-    drawn = _bands(engine, placed, lights, output, timings, report)
-    return Rendering(drawn, counts, timings, built.report, built.warnings)
+    mattes = mattes_of(built.drawables, output.layers)
+
+    def frame(number: int, turn: Matrix) -> Iterator[Band]:
+        def share(done: float, stage: str) -> None:
+            report((number + done) / len(turns), stage)
+
+        return _bands(engine, built, turn, mattes, output, timings, share)
+
+    frames = (frame(number, turn) for number, turn in enumerate(turns))
+    if output.turntable is None:
+        drawn = next(frames)
+    elif output.turntable.arrangement == "sheet":
+        drawn = sheet(frames, output.columns)
+    else:
+        drawn = layers(frames)
+    finished = _finished(engine, drawn)
+    return Rendering(finished, counts, timings, attributes(mattes), built.report, built.warnings)
+
+
+def _finished(engine: _Engine, bands: Iterator[Band]) -> Iterator[Band]:
+    """Yield bands, and free what is not kept for other pictures after the last one."""
+    yield from bands
+    engine.trim()
 
 
 def _bands(
     engine: _Engine,
-    scene: FlatScene,
-    lights: Lighting,
+    built: BuiltScene,
+    turn: Matrix,
+    mattes: Mapping[str, Mattes],
     output: RenderOutput,
     timings: dict[str, float],
     report: Report,
 ) -> Iterator[Band]:
+    start = time.perf_counter()
+    moved = [replace(d, world_from_object=turn @ d.world_from_object) for d in built.drawables]
+    scene = FlatScene(moved, built.view, built.background, built.sky)
+    eye = built.view.world_from_camera[:3, 3]
+    visible = "light_visibility" in output.layers
+    lights = lighting(built.lights, eye, built.cookies, scene.corners, visibility=visible)
     width, height = output.size
     supersampling = output.supersampling
     layered = bool(output.layers)
     most = LAYERED_SAMPLES_MAX if layered else SAMPLES_MAX
-    size = tile_size(width, height, supersampling, most)
-    target = engine.targets.fit(*size, supersampling, layered=layered)
+    around = apron(output.pixel_filter)
+    size = tile_size(width, height, supersampling, most, around)
+    target = engine.targets.fit(
+        *size, supersampling, layered=layered, pixel_filter=output.pixel_filter
+    )
     jit_before = engine.renderer.jit_seconds
-    start = time.perf_counter()
     engine.renderer.draw_shadows(scene, lights)
     spent = time.perf_counter() - start
     for tiles in bands(width, height, size):
         start = time.perf_counter()
         above = height - tiles[0].bottom - tiles[0].height
-        band = _Band.empty(output.layers, tiles[0].height, width)
+        band = OpenBand.empty(output.layers, mattes, tiles[0].height, width, supersampling)
         for tile in tiles:
             report((above + tile.height * tile.left / width) / height, "draw")
+            seen = widened(tile, around)
             engine.renderer.draw(
                 scene,
                 lights,
                 target,
-                tile_from_picture(tile, width, height),
-                (tile.width * supersampling, tile.height * supersampling),
+                tile_from_picture(seen, width, height),
+                (seen.width * supersampling, seen.height * supersampling),
                 supersampling,
             )
-            band.read(engine.targets.resolve(tile.width, tile.height, supersampling), tile)
+            band.read_samples(target, tile, supersampling, around)
+            resolved = engine.targets.resolve(
+                tile.width, tile.height, supersampling, output.pixel_filter
+            )
+            band.read(resolved, tile)
+            if SHADING_DIFFERENCE in output.layers:
+                place = tile_from_picture(tile, width, height)
+                pixels = (tile.width, tile.height)
+                engine.renderer.draw(scene, lights, target, place, pixels, supersampling=1)
+                band.subtract(target, tile)
         check("resolving samples")
         spent += time.perf_counter() - start
         yield band.images()
     jit = engine.renderer.jit_seconds - jit_before
-    timings |= {"draw_ms": _milliseconds(spent - jit), "jit_ms": _milliseconds(jit)}
-    engine.trim()
+    timings["draw_ms"] = round(timings["draw_ms"] + _milliseconds(spent - jit), 3)
+    timings["jit_ms"] = round(timings["jit_ms"] + _milliseconds(jit), 3)
     report(1.0, "draw")
-
-
-@dataclass(frozen=True, slots=True)
-class _Band:
-    """Where the pixels of a band are put together: arrays (rows, width, channels) by place."""
-
-    pixels: dict[str, NDArray[np.float32]]
-
-    @classmethod
-    def empty(cls, layers: Sequence[str], rows: int, width: int) -> Self:
-        return cls(
-            {
-                name: np.empty((rows, width, PLACES[name].channels), np.float32)
-                for name in (PICTURE, *layers)
-            }
-        )
-
-    def read(self, resolved: Target, tile: Tile) -> None:
-        """Copy a tile's part of every layer from OpenGL."""
-        columns = slice(tile.left, tile.left + tile.width)
-        for attachment in {PLACES[name].attachment for name in self.pixels}:
-            numbers = resolved.read(attachment, tile.width, tile.height)
-            for name, pixels in self.pixels.items():
-                place = PLACES[name]
-                if place.attachment == attachment:
-                    pixels[:, columns] = numbers[..., place.start : place.end]
-
-    def images(self) -> Band:
-        return {name: Image(pixels, PLACES[name].meaning) for name, pixels in self.pixels.items()}
 
 
 def _milliseconds(seconds: float) -> float:
@@ -224,8 +243,15 @@ def warm(report: Report, textures: TextureMaker) -> None:
         textures: Makes the tables that surfaces bring themselves; they are kept.
     """
 
-    def picture(spec: TextureSpec, meaning: Meaning, proportion: tuple[int, int] = (1, 1)) -> Image:
-        return _grey(meaning) if spec == _GREY else textures.picture(spec, meaning, proportion)
+    def picture(
+        spec: TextureSpec,
+        meaning: Meaning,
+        proportion: tuple[int, int] = (1, 1),
+        rendered: Mapping[str, Image] = MappingProxyType({}),
+    ) -> Image:
+        if spec == _GREY:
+            return _grey(meaning)
+        return textures.picture(spec, meaning, proportion, rendered)
 
     maker = replace(textures, picture=picture)
 

@@ -7,10 +7,10 @@ Every technique module has
     ) -> Image | Outcome
 
 with size = (width, height), `inputs` the pictures that the spec's fields hold, by field name,
-made at the same size unless the spec's `inner_size` says otherwise, and `report` to be told the
-share that is done and the step, where there are steps, and what there is to see of it. It is a pure
-function: no clock, no state, inputs are never modified. An Outcome is a picture with layers beside
-it, or with something to say of it.
+made at the same size unless the spec's `inner_size` or a slot (`MadeAt`) says otherwise, and
+`report` to be told the share that is done and the step, where there are steps, and what there is to
+see of it. It is a pure function: no clock, no state, inputs are never modified. An Outcome is a
+picture with layers beside it, or with something to say of it.
 One whose spec is `solid` but not `pointwise` also has
 
     def synthesize_volume(
@@ -29,6 +29,7 @@ that techniques share.
 
 from __future__ import annotations
 
+import functools
 import importlib
 import pkgutil
 from collections import Counter
@@ -37,6 +38,7 @@ from typing import TYPE_CHECKING, cast
 from api_schemas.families import Meaning, PresetSpec, TextureSpec
 from api_schemas.language import FAMILIES
 from api_schemas.maps import DATA
+from api_schemas.own_size import Size, size_within
 from api_schemas.parameters import ParameterMap
 from api_schemas.textures.image import ImageSpec
 from api_schemas.walk import is_in_space, meaning_of
@@ -52,7 +54,6 @@ if TYPE_CHECKING:
     from worker.images.image import Image
     from worker.stages import Report
 
-    Size = tuple[int, int]
     Key = tuple[str, Meaning]
     SizedKey = tuple[str, Meaning, Size]
     Load = Callable[[ImageSpec, Meaning], Image]
@@ -87,7 +88,7 @@ def outcome(
     Args:
         spec: A texture of any technique.
         size: Width and height in pixels, also of what is nested in it but for techniques that
-            count in cells of their own.
+            count in cells or copy pixels.
         load: Gives the picture of an uploaded asset in linear light, at its own size, for a slot
             that is read as colour or as data.
         meaning: Of the slot that the texture itself is in.
@@ -97,7 +98,12 @@ def outcome(
     Raises:
         WorkerError: Whatever `load` or a technique raises.
     """
-    uses = Counter(_sized_keys(spec, meaning, size))
+
+    @functools.cache
+    def loaded(picture: ImageSpec, meaning: Meaning) -> Image:
+        return load(picture, meaning)
+
+    uses = Counter(_sized_keys(spec, meaning, size, loaded))
     shared: dict[SizedKey, Outcome] = {}
     done = 0
     top = spec
@@ -107,10 +113,11 @@ def outcome(
         key = (*_key(spec, meaning), size)
         if key in shared:
             return shared[key]
-        inner = spec.inner_size(size)
-        inputs = {name: make(*slot, inner).image for name, slot in _slots(spec, meaning).items()}
+        sizes = _sizes(spec, meaning, size, loaded)
+        slots = _slots(spec, meaning)
+        inputs = {name: make(*slot, sizes[name]).image for name, slot in slots.items()}
         if isinstance(spec, ImageSpec):
-            inputs["asset"] = load(spec, meaning)
+            inputs["asset"] = loaded(spec, meaning)
         before = done
 
         def told(share: float, step: str, preview: Image | None = None) -> None:
@@ -248,10 +255,21 @@ def _keys(spec: TextureSpec, meaning: Meaning) -> Iterator[Key]:
         yield from _keys(*slot)
 
 
-def _sized_keys(spec: TextureSpec, meaning: Meaning, size: Size) -> Iterator[SizedKey]:
+def _sized_keys(spec: TextureSpec, meaning: Meaning, size: Size, load: Load) -> Iterator[SizedKey]:
     yield (*_key(spec, meaning), size)
-    for slot in _slots(spec, meaning).values():
-        yield from _sized_keys(*slot, spec.inner_size(size))
+    sizes = _sizes(spec, meaning, size, load)
+    for name, slot in _slots(spec, meaning).items():
+        yield from _sized_keys(*slot, sizes[name], load)
+
+
+def _sizes(spec: TextureSpec, meaning: Meaning, size: Size, load: Load) -> dict[str, Size]:
+    """Return the size at which each texture directly within a spec is made."""
+
+    def measure(picture: ImageSpec) -> Size:
+        found = load(picture, meaning)
+        return found.width, found.height
+
+    return {name: size_within(spec, name, size, measure) for name in _slots(spec, meaning)}
 
 
 def _module(technique: str) -> ModuleType:

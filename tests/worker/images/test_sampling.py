@@ -61,3 +61,41 @@ def test_levels_are_blended_by_their_number():
 
 def test_very_far_away_is_still_somewhere():
     assert np.isfinite(read([1e300, -1e300, 1e18])).all()
+
+
+def linear(shape):
+    """A volume of u + 10 v + 100 w at its voxels' centres."""
+    depth, height, width = shape
+    w, v, u = np.meshgrid(
+        (np.arange(depth) + 0.5) / depth,
+        1 - (np.arange(height) + 0.5) / height,
+        (np.arange(width) + 0.5) / width,
+        indexing="ij",
+    )
+    return (u + 10 * v + 100 * w).astype(np.float32)
+
+
+def test_a_volume_of_a_linear_function_is_read_exactly():
+    # T19: trilinear blending keeps it, away from the edges
+    places = np.random.default_rng(1).uniform(0.2, 0.8, (50, 3))
+
+    found = sample([linear((8, 4, 16))], places, ("clamp", "clamp", "clamp"))
+
+    assert found == pytest.approx(places @ [1, 10, 100], abs=1e-4)
+
+
+def test_the_nearest_voxel_is_the_one_that_covers_the_place():
+    volume = linear((2, 2, 2))
+
+    found = sample([volume], np.array([[0.1, 0.9, 0.6]]), ("repeat",) * 3, smooth=False)
+
+    assert found.tolist() == [volume[1, 0, 0]]
+
+
+def test_a_volume_has_levels_too():
+    volume = np.random.default_rng(2).random((4, 4, 4)).astype(np.float32)
+    mean = np.full((1, 1, 1), volume.mean(), np.float32)
+
+    found = sample([volume, mean], np.full((1, 3), 0.4), ("repeat",) * 3, detail=np.array([1.0]))
+
+    assert found == pytest.approx(volume.mean())

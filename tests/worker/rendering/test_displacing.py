@@ -170,3 +170,49 @@ def test_one_mesh_in_two_reliefs_is_two_meshes(studio: Studio) -> None:
     small, large = (studio.draw(ball(depth=depth, subdivisions=0)) for depth in (0.1, 0.9))
 
     assert large[..., 3].sum() > 1.5 * small[..., 3].sum()
+
+
+NOISE = {"technique": "perlin", "frequency": 4, "range": "signed", "gradients": "reference"}
+IN_SPACE = {"coordinates": {"technique": "position"}, "transform": {"scale": [1.0, 1.0]}}
+
+
+def test_t48_a_ball_moved_by_solid_noise_stays_within_its_bound(studio: Studio) -> None:
+    amplitude = 0.25
+    scene = ball(depth=amplitude, subdivisions=1, **IN_SPACE)
+    scene["nodes"][0]["displacement"]["texture"] = NOISE
+
+    layers = studio.layers(scene, ["position", "coverage"], (96, 96))
+
+    seen = layers["coverage"][..., 0] == 1
+    radii = np.linalg.norm(layers["position"][seen], axis=1)
+    assert radii.max() <= 1 + 1.0364 * amplitude
+    assert radii.min() >= np.cos(np.pi / 128) ** 2 - 1.0364 * amplitude
+    assert radii.std() > 0.1 * amplitude
+
+
+def test_t48_where_space_goes_on_a_solid_relief_has_no_seam(studio: Studio) -> None:
+    # Read by uv, noise jumps where u begins; in space nothing begins on a ball.
+    from worker.rendering.displacing import relief_of, with_relief  # noqa: PLC0415
+
+    spec = Displacement.model_validate({"texture": NOISE, "depth": 0.3, **IN_SPACE})
+    volume = relief_of(spec, studio.maker)
+    fine = sphere(1.0, 256, 128)
+
+    moved_ball = with_relief(fine, spec, 0, volume)
+
+    # Neighbours differ by no more than noise is steep: 4 cells, less than 3 each
+    places = moved_ball.positions[moved_ball.triangles]
+    edges = np.linalg.norm(places - np.roll(places, 1, axis=1), axis=2)
+    assert edges.max() < np.pi / 128 * (1 + 0.3 * 4 * 3)
+
+
+def test_a_solid_relief_turns_with_its_mesh(studio: Studio) -> None:
+    scene = ball(depth=0.3, subdivisions=0, **IN_SPACE)
+    scene["nodes"][0]["displacement"]["texture"] = NOISE
+    quarter = {"rotation": [0.0, 0.0, np.sqrt(0.5), np.sqrt(0.5)]}
+
+    still = studio.draw(scene, (64, 64))[..., 3]
+    scene["nodes"][0]["transform"] = quarter
+    turned = studio.draw(scene, (64, 64))[..., 3]
+
+    assert (np.rot90(still) != turned).mean() < 2e-3

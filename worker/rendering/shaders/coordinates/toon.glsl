@@ -1,4 +1,4 @@
-#include "lib/lights.glsl"
+#include "lib/lamps.glsl"
 #include "lib/power.glsl"
 #include "lib/reach.glsl"
 #include "lib/surface_point.glsl"
@@ -10,7 +10,7 @@ Footprint coordinates_toon(
     float tone = 0.0;
     vec3 lamp = vec3(0.0);
     for (int i = 0; i < light_count; i++) {
-        vec3 direction = light_at(i, point.position).direction;
+        vec3 direction = lamp_at(i, point).direction;
         float facing = dot(point.normal, direction);
         lamp = facing > tone ? direction : lamp;
         tone = max(tone, facing);

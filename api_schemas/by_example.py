@@ -1,0 +1,105 @@
+"""What the specs share that make new texture out of an exemplar's pixels."""
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Annotated, ClassVar
+
+from pydantic import Field
+
+from api_schemas.base import WHOLE, Seed
+from api_schemas.cost import Cost
+from api_schemas.families import TextureSpec
+from api_schemas.maps import DATA
+from api_schemas.own_size import FUNCTION_SIZE, LIKE_EXEMPLAR, LIKE_RESULT, OWN_SIZE
+
+if TYPE_CHECKING:
+    from api_schemas.language import Texture
+
+EXEMPLAR_SIDE_MAX = 2048
+RESULT_SIDE_MAX = 4096
+ExemplarSide = Annotated[int, Field(ge=1, le=EXEMPLAR_SIDE_MAX), WHOLE]
+ResultSide = Annotated[int, Field(ge=1, le=RESULT_SIDE_MAX), WHOLE]
+
+
+class FromExemplarSpec(TextureSpec):
+    """Copies pixels of an exemplar: its own, at their own size."""
+
+    layers: ClassVar[tuple[str, ...]] = ("source",)
+
+    exemplar: Annotated["Texture", OWN_SIZE] = Field(
+        description="The texture to make more of, with its own pixels: an upload at its size, a "
+        "technique with a size at that, functions at 256 x 256. Pixels with alpha 0 are not copied."
+    )
+    exemplar_size: Annotated[list[ExemplarSide], Field(min_length=2, max_length=2)] | None = Field(
+        default=None,
+        description="Width and height at which the exemplar is read instead: a smaller one makes "
+        "what is in it smaller, and the work quicker.",
+    )
+    exemplar_mask: Annotated["Texture | None", LIKE_EXEMPLAR, DATA] = Field(
+        default=None,
+        description="Where its first channel is below 0.5, the exemplar is not copied.",
+    )
+    picture: Annotated["Texture | None", LIKE_EXEMPLAR] = Field(
+        default=None,
+        description="Another picture of the same thing, such as its normals or its roughness: the "
+        "result is made of its pixels, from the same places. So all maps of a material stay "
+        "together.",
+    )
+    seed: Seed = Field(default=0, description="Another number, another texture of the same kind.")
+
+    def cost(self, pixels: int) -> Cost:
+        """Of an exemplar of functions; where its size is known, `cost_from` knows better."""
+        return self.cost_from({"exemplar": math.prod(self.exemplar_size or FUNCTION_SIZE)}, pixels)
+
+    def cost_from(self, within: Mapping[str, int], pixels: int) -> Cost:
+        """Estimate the technique alone.
+
+        Args:
+            within: How many pixels each nested texture has, by field name; at least the exemplar's.
+            pixels: How many the picture has that is asked for.
+        """
+        raise NotImplementedError
+
+
+class GrownSpec(FromExemplarSpec):
+    """Makes a picture of a size of its own out of an exemplar."""
+
+    sized: ClassVar[bool] = True
+
+    size: Annotated[list[ResultSide], Field(min_length=2, max_length=2)] = Field(
+        default=[256, 256],
+        description="Width and height that are grown, in pixels of the exemplar; the output's "
+        "should be the same, else the picture is resampled.",
+    )
+
+
+class KeepingSpec(GrownSpec):
+    """Grows around parts that are finished already."""
+
+    keep: Annotated["Texture | None", LIKE_RESULT] = Field(
+        default=None,
+        description="A picture parts of which are finished: they stay as they are, and the texture "
+        "grows around them.",
+    )
+    keep_mask: Annotated["Texture | None", LIKE_RESULT, DATA] = Field(
+        default=None,
+        description="Where its first channel is at least 0.5, keep stays; by default where keep "
+        "has alpha above 0.",
+    )
+
+
+class GuidedSpec(KeepingSpec):
+    """Grows under guidance: a picture to follow."""
+
+    guide: Annotated["Texture | None", LIKE_RESULT] = Field(
+        default=None,
+        description="A picture the result follows: where it is like a place of exemplar_guide, "
+        "that place of the exemplar is preferred.",
+    )
+    exemplar_guide: Annotated["Texture | None", LIKE_EXEMPLAR] = Field(
+        default=None, description="What the guide is compared with; by default the exemplar itself."
+    )
+    guide_weight: Annotated[float, Field(ge=0, le=1)] = Field(
+        default=0.5,
+        description="How much the guide counts: 0 not at all, 0.5 as much as the texture, 1 alone.",
+    )

@@ -1,0 +1,73 @@
+"""From a coordinate map to pictures."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from worker.images.image import Image
+from worker.synthesis._channels import matched
+from worker.synthesis._resample import resample
+from worker.synthesis.by_example.quality import quality
+from worker.synthesis.outcome import Outcome
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from numpy.typing import NDArray
+
+    from worker.synthesis.by_example.exemplar import Exemplar
+
+    Integers = NDArray[np.int32]
+
+
+def finished(
+    place: Integers,
+    exemplar: Exemplar,
+    inputs: Mapping[str, Image],
+    size: tuple[int, int],
+    kept: Image | None = None,
+) -> Outcome:
+    """Gather pixels, and tell where they come from and how good the result is.
+
+    Args:
+        place: Row and column of the source of each pixel, (height, width, 2); -1 for kept ones.
+        exemplar: What the map was made on.
+        inputs: `picture` is what pixels are taken of, if it is there, else the exemplar.
+        size: Width and height of the picture that is wanted.
+        kept: Where -1 is taken from.
+    """
+    image = gathered(place, inputs.get("picture", exemplar.image), kept)
+    return Outcome(
+        Image(resample(image.pixels, size), image.meaning),
+        {"source": Image(nearest(source_layer(place, exemplar.shape), size), "data")},
+        {"quality": quality(place, exemplar)},
+    )
+
+
+def gathered(place: Integers, source: Image, kept: Image | None = None) -> Image:
+    """Copy pixels: nothing is computed with them, so they stay what they were."""
+    rows, columns = np.moveaxis(place, -1, 0)
+    if kept is None:
+        return Image(source.pixels[rows, columns], source.meaning)
+    copied, stays = matched(source, kept)
+    pixels = np.where((rows < 0)[..., np.newaxis], stays, copied[rows, columns])
+    return Image(pixels, source.meaning)
+
+
+def source_layer(place: Integers, shape: tuple[int, int]) -> NDArray[np.float32]:
+    """Return u and v in the exemplar of each pixel's source, (height, width, 2); 0 for kept."""
+    height, width = shape
+    rows, columns = np.moveaxis(place, -1, 0)
+    layer = np.stack([(columns + 0.5) / width, 1 - (rows + 0.5) / height], axis=-1)
+    layer[rows < 0] = 0
+    return np.asarray(layer, np.float32)
+
+
+def nearest(values: NDArray[np.float32], size: tuple[int, int]) -> NDArray[np.float32]:
+    """Bring coordinates to another (width, height): means of them would be other places."""
+    height, width = values.shape[:2]
+    rows = (2 * np.arange(size[1]) + 1) * height // (2 * size[1])
+    columns = (2 * np.arange(size[0]) + 1) * width // (2 * size[0])
+    return np.asarray(values[rows[:, np.newaxis], columns], np.float32)

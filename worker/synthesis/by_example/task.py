@@ -1,0 +1,117 @@
+"""What texture optimisation is asked for, and the same from coarse to fine."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from worker.synthesis.by_example.pyramid import halved
+from worker.synthesis.by_example.windows import whole_windows
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Bytes = NDArray[np.uint8]
+    Mask = NDArray[np.bool_]
+
+SIDES = (9, 9, 7)
+"""Of patches on each level from coarse to fine, then as on the last one named."""
+_COARSEST_SIDE = 24
+_LEAST_PATCHES = 16
+
+
+@dataclass(frozen=True, slots=True)
+class Task:
+    """What is to be made of what.
+
+    Attributes:
+        source: Features of the exemplar, (height, width, channels).
+        usable: Which of its pixels may be copied.
+        size: Height and width of the target.
+        tileable: Whether the target goes on around its edges.
+        seed: Of everything random.
+        guides: Further channels of source and target that have to agree, or None.
+        fixed: Which target pixels stay, (height, width), or None for none.
+        target: Their features, (height, width, channels), where any are fixed.
+        variety: How strongly patches are kept from being used too often; 1 is ordinary.
+    """
+
+    source: Bytes
+    usable: Mask
+    size: tuple[int, int]
+    tileable: bool
+    seed: int
+    guides: tuple[Bytes, Bytes] | None = None
+    fixed: Mask | None = None
+    target: Bytes | None = None
+    variety: float = 1.0
+
+    def keeping(self, target: Bytes, fixed: Mask) -> Task:
+        """Return the same task with some finished pixels."""
+        return replace(self, target=target, fixed=fixed)
+
+
+class Level(NamedTuple):
+    """A task at one size.
+
+    Attributes:
+        source: Features of the exemplar, then its guides.
+        usable: Which of its pixels may be copied.
+        target: Features of the target, as far as they are fixed, then its guides.
+        fixed: Which of its pixels stay.
+        depth: 0 is the coarsest level.
+    """
+
+    source: Bytes
+    usable: Mask
+    target: Bytes
+    fixed: Mask
+    depth: int
+
+    @property
+    def patch_side(self) -> int:
+        """Side of a patch in pixels, where source and target are large enough."""
+        return SIDES[min(self.depth, len(SIDES) - 1)]
+
+
+def levels(task: Task) -> list[Level]:
+    """Return a task at all sizes, from coarse to fine.
+
+    Halving ends before a side falls below 24 pixels, or too few patches could be copied.
+    """
+    source, usable, target, fixed = _joined(task)
+    everywhere = np.ones(fixed.shape, bool)
+    voted = task.source.shape[2]
+    found = []
+    while True:
+        found.append((np.ascontiguousarray(source), usable, target, fixed))
+        source, usable = halved(source, usable)
+        guides, _ = halved(target[..., voted:], everywhere, wraps=task.tileable)
+        colours, fixed = halved(target[..., :voted], fixed, wraps=task.tileable)
+        target, everywhere = np.concatenate([colours, guides], axis=-1), np.ones(fixed.shape, bool)
+        small = min(*usable.shape, *fixed.shape) < _COARSEST_SIDE
+        if small or not _enough(usable) or fixed.all():
+            return [Level(*parts, depth) for depth, parts in enumerate(reversed(found))]
+
+
+def _joined(task: Task) -> tuple[Bytes, Mask, Bytes, Mask]:
+    """Return source, what is usable of it, target and what is fixed of it, guides appended."""
+    height, width = task.size
+    fixed = np.zeros((height, width), bool) if task.fixed is None else task.fixed
+    empty = np.zeros((height, width, task.source.shape[2]), np.uint8)
+    target = empty if task.target is None else task.target
+    if task.guides is None:
+        return task.source, task.usable, target, fixed
+    ours, theirs = task.guides
+    return (
+        np.concatenate([task.source, ours], axis=-1),
+        task.usable,
+        np.concatenate([target, theirs], axis=-1),
+        fixed,
+    )
+
+
+def _enough(usable: Mask) -> bool:
+    return int(whole_windows(usable, (SIDES[0], SIDES[0])).sum()) >= _LEAST_PATCHES
