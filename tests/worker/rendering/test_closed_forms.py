@@ -151,7 +151,7 @@ def test_a_ramp_colours_what_is_in_it(draw, interpolation):
     shown = draw(form, where, PIXEL)
 
     # Read off the noise that the fragment shows itself: a flat band's edge is infinitely steep
-    value = draw(form.inputs["input"], where, PIXEL)[:, :1]
+    value = np.ascontiguousarray(draw(form.inputs["input"], where, PIXEL)[:, :1])
     expected = ramp.colored(texture, value)[:, 0]
     # 1e-7 of a value between stops .15 apart, whose colours are 2 apart
     assert abs(shown[:, :3] - expected).max() <= TOLERANCE
