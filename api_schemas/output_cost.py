@@ -56,6 +56,11 @@ def writing(output: Output) -> Cost:
         if output.format == "exr":
             numbers = sum(LAYER_CHANNELS[layer] for layer in output.layers)
         held = min(pixels, _samples_per_tile(output))
+        if output.turntable:
+            # A row of the sheet is held whole; frames that become layers are held all.
+            rows = math.ceil(output.turntable.cells / output.columns)
+            pixels = max(pixels, math.prod(output.size) * output.frames)
+            held = pixels // rows
     else:
         held = pixels
         if isinstance(output, TextureOutput) and output.mipmaps:
@@ -70,10 +75,10 @@ def writing(output: Output) -> Cost:
 def sampling(output: RenderOutput) -> Cost:
     """Return the cost of a picture's samples where nothing is, and of making pixels of them."""
     samples = samples_of(output)
-    held = min(samples, _samples_per_tile(output))
+    held = min(samples // output.frames, _samples_per_tile(output))
     if not output.layers:
         return Cost(samples * _SECONDS_PER_SAMPLE, float(held * _BYTES_PER_SAMPLE))
-    pixels = output.size[0] * output.size[1]
+    pixels = output.size[0] * output.size[1] * output.frames
     return Cost(
         samples * _SECONDS_PER_LAYERED_SAMPLE + pixels * _SECONDS_PER_LAYERED_PIXEL,
         float(held * _BYTES_PER_LAYERED_SAMPLE),
@@ -81,14 +86,15 @@ def sampling(output: RenderOutput) -> Cost:
 
 
 def samples_of(output: RenderOutput) -> int:
-    """Return how many samples are drawn."""
-    return output.size[0] * output.size[1] * output.supersampling**2
+    """Return how many samples are drawn, of all frames."""
+    return output.frames * output.size[0] * output.size[1] * output.supersampling**2
 
 
 def tiles_of(output: RenderOutput) -> int:
     """Return in about how many tiles they are drawn: each draws every triangle again."""
     columns, rows = (math.ceil(side * output.supersampling / SIDE_MAX) for side in output.size)
-    return max(columns * rows, math.ceil(samples_of(output) / _samples_per_tile(output)))
+    samples = samples_of(output) // output.frames
+    return output.frames * max(columns * rows, math.ceil(samples / _samples_per_tile(output)))
 
 
 def _samples_per_tile(output: RenderOutput) -> int:
