@@ -9,6 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TypeAlias
 
 from api_schemas.assets import AssetFacts, ImageFacts
+from api_schemas.base import Schema
 from api_schemas.bodies import (
     BYTES_PER_KEPT_TEXEL,
     BYTES_PER_TEXEL,
@@ -20,19 +21,21 @@ from api_schemas.bodies import (
 from api_schemas.by_example import FromExemplarSpec
 from api_schemas.camera import Camera, FramedCamera, ModelCamera, PosedCamera
 from api_schemas.cookies import Cookie
+from api_schemas.coordinates.triplanar import TriplanarSpec
 from api_schemas.cost import Cost
 from api_schemas.coverage import coverage, stand_in
 from api_schemas.families import SurfaceSpec, TextureSpec
 from api_schemas.geometry import IDENTITY, Affine, Vector3, affine
 from api_schemas.light_cost import cookies_of, seconds_of_shadows, shadow_maps
 from api_schemas.lights import LIGHTS_MAX
-from api_schemas.maps import TABLE_FILTERS
 from api_schemas.output_cost import samples_of, sampling, tiles_of, writing
 from api_schemas.own_size import FUNCTION_SIZE, Size, size_within
 from api_schemas.relief import AnyMap, ParallaxMap
 from api_schemas.requests import RenderRequest, Request
 from api_schemas.scene import Node
 from api_schemas.sky import SKY_SECONDS_PER_SAMPLE, sky_textures
+from api_schemas.solid import is_carved, worn_depth
+from api_schemas.stored_cost import at_once, form_of, storing
 from api_schemas.textures.image import ImageSpec
 from api_schemas.walk import BRANCHES, outermost, parts
 
@@ -46,13 +49,11 @@ SECONDS_PER_MAP_SAMPLE = {
     "ewa": 6e-7,
     "ripmap": 1e-7,
     "summed_area": 5e-7,
-    "formula": 4e-7,
+    "formula": 3e-7,
 }
-BYTES_PER_TABLE_TEXEL: Mapping[str, int] = {"ripmap": 64, "summed_area": 32}
-BYTES_TO_SUM_A_TEXEL = 96
-SECONDS_PER_STORED_TEXEL = {"box": 2e-8, "kaiser": 5e-7, "ripmap": 1e-7, "summed_area": 2e-7}
 SECONDS_PER_PARALLAX_STEP = 2e-8
 SECONDS_TO_COMPILE_A_MAP = 0.12
+SECONDS_TO_COMPILE_A_FORMULA = 0.4
 SECONDS_PER_DRAWN_TRIANGLE = 5e-8
 SECONDS_PER_DRAW = 2e-4
 SECONDS_PER_SORTED_TRIANGLE = 3e-7
@@ -150,19 +151,23 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
     once = 0.0
     for node, placed, found in drawn:
         drawing = found.draws * SECONDS_PER_DRAW + found.pieces * SECONDS_PER_DRAWN_TRIANGLE
-        cost += Cost(tiles * drawing)
-        once += drawing
+        # Of several surfaces on one shape each draws it all, and throws away what is not its.
+        passes = 1 if node.surface_map is None else len(node.surface_map.surfaces)
+        cost += Cost(tiles * passes * drawing)
+        once += passes * drawing
         if found.key not in made:
             made.add(found.key)
             cost += found.making
             cost += Cost(MAPS_OF_A_MATERIAL * SECONDS_TO_COMPILE_A_MAP * found.pictures)
-        shown = node.surface or node.mesh
+        shown = node.surface_map or node.surface or node.mesh
         surfaces = [part for _, part in parts(shown) if isinstance(part, SurfaceSpec)]
         maps = [_maps(surface) for surface in surfaces]
-        for worn in [*maps, _maps(node.displacement)]:
+        among: list[MAPS] = [] if node.surface_map is None else [node.surface_map]
+        for worn in [*maps, among, _maps(node.displacement)]:
             cost += textures.cost(worn)
         own = MAPS_OF_A_MATERIAL * found.pictures * SECONDS_PER_MAP_SAMPLE["anisotropic"]
-        shading = lighting + max([own, *map(_seconds_per_sample, maps)])
+        looks = [own, *map(_seconds_per_sample, maps)]
+        shading = passes * lighting + (sum(looks) if among else max(looks))
         # The parts of one model fill the ball side by side as well as one behind the other.
         covered = math.cbrt(found.draws)
         covered *= coverage(found.reach, placed, camera, width / height)
@@ -170,7 +175,8 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
             covered *= 2  # what is behind its front is shaded too
             cost += Cost(found.pieces * SECONDS_PER_SORTED_TRIANGLE)
         cost += Cost(samples * covered * shading)
-    cost += shadow_maps(scene.lights or [], once)
+    shadows = shadow_maps(scene.lights or [], once)
+    cost += Cost(request.output.frames * shadows.seconds, shadows.bytes)
     # Equal things are made once, one after another, and kept: only the largest counts twice.
     return cost + Cost(bytes=textures.making)
 
@@ -187,7 +193,19 @@ def _seconds_per_sample(maps: Sequence[MAPS]) -> float:
 def _seconds_per_look(item: MAPS) -> float:
     if isinstance(item, ParallaxMap):
         return SECONDS_PER_PARALLAX_STEP * (1 if item.method == "offset" else item.steps)
-    return SECONDS_PER_MAP_SAMPLE[item.filter]
+    if item.filter == "formula":
+        once = sum(_seconds_per_formula(part) for _, part in parts(item.texture))
+    else:
+        once = SECONDS_PER_MAP_SAMPLE[item.filter]
+    return once * (3 if isinstance(item.coordinates, TriplanarSpec) else 1)
+
+
+def _seconds_per_formula(part: Schema) -> float:
+    """Return what a pixel of one formula takes, about, told from one of a picture."""
+    pixels = 1 << 20
+    if not isinstance(part, TextureSpec):
+        return 0.0
+    return SECONDS_PER_MAP_SAMPLE["formula"] + 20 * part.cost(pixels).seconds / pixels
 
 
 def _moved(placed: Affine | None, middle: Vector3) -> Affine | None:
@@ -221,23 +239,28 @@ class _WornTextures:
         """Return the cost of what these maps need and no earlier ones did."""
         cost = Cost()
         for item in maps:
-            picture = f"{type(item).__name__} {item.texture.model_dump_json()}"
+            if not isinstance(item, Cookie) and item.filter == "formula":
+                compiled = sum(isinstance(part, TextureSpec) for _, part in parts(item.texture))
+                cost += Cost(compiled * SECONDS_TO_COMPILE_A_FORMULA)
+                continue
+            carved = not isinstance(item, Cookie) and is_carved(item)
+            picture = f"{type(item).__name__} {carved} {item.texture.model_dump_json()}"
+            texels = (
+                worn_depth(item.texture) ** 3 if carved else _texels_worn(item.texture, self._facts)
+            )
             if picture not in self._made:
                 self._made.add(picture)
-                picture_cost = _textures(item.texture, self._facts, item.texture.surface_size)
-                self.making = max(self.making, picture_cost.bytes)
-                cost += Cost(picture_cost.seconds)
-            form = item.filter if item.filter in TABLE_FILTERS else getattr(item, "pyramid", "box")
-            if (
-                stored := f"{picture} {form} {item.wrap if form != 'box' else ''}"
-            ) not in self._made:
+                making = (
+                    volume_of(item.texture, texels)
+                    if carved
+                    else _textures(item.texture, self._facts, item.texture.surface_size)
+                )
+                self.making = max(self.making, making.bytes)
+                cost += Cost(making.seconds)
+            if (stored := f"{picture} {form_of(item)}") not in self._made:
                 self._made.add(stored)
-                texels = _texels_worn(item.texture, self._facts)
-                if form == "summed_area":
-                    texels *= 2 ** item.wrap.count("mirror")
-                    self.making = max(self.making, float(texels * BYTES_TO_SUM_A_TEXEL))
-                kept = BYTES_PER_TABLE_TEXEL.get(form, BYTES_PER_KEPT_TEXEL)
-                cost += Cost(texels * SECONDS_PER_STORED_TEXEL[form], float(texels * kept))
+                self.making = max(self.making, at_once(item, texels))
+                cost += storing(item, texels)
             if (program := f"{picture} {item.filter} {item.wrap}") not in self._made:
                 self._made.add(program)
                 cost += Cost(SECONDS_TO_COMPILE_A_MAP)

@@ -9,7 +9,7 @@ from api_schemas.families import SurfaceSpec, TextureSpec
 from api_schemas.geometry import IDENTITY, Affine, Vector3, affine, cross, length, triple
 from api_schemas.light_cost import cookies_of
 from api_schemas.lights import DirectionalLight, Light, SpotLight
-from api_schemas.map_feasibility import map_obstacles
+from api_schemas.map_feasibility import formula_obstacles, map_obstacles
 from api_schemas.maps import MAPS_MAX, Map
 from api_schemas.model_mesh import ModelMesh
 from api_schemas.obstacle import Obstacle
@@ -45,7 +45,7 @@ def obstacles(request: Request) -> list[Obstacle]:
         found += _light(light, f"/scene/lights/{index}")
     for index, node in enumerate(request.scene.nodes):
         found += _node(node, f"/scene/nodes/{index}", IDENTITY)
-    return found + list(_layers(request.output))
+    return found + list(_layers(request.output)) + list(_turntable(request.output))
 
 
 def assets_in(request: Request) -> list[tuple[str, str]]:
@@ -79,6 +79,7 @@ def _limits(request: Request) -> Iterator[Obstacle]:
                 yield Obstacle(
                     "too_many_maps", pointer, f"{maps} maps on one surface; at most {most}"
                 )
+            yield from formula_obstacles(part, pointer)
         if isinstance(part, Map):
             yield from map_obstacles(part, pointer)
     for count, limit, things in (
@@ -127,6 +128,23 @@ def _layer_names(request: TextureRequest) -> Iterator[Obstacle]:
                 f"/output/layers/{index}",
                 f"{texture.technique} has no such layer; it has {known}",
             )
+
+
+def _turntable(output: RenderOutput) -> Iterator[Obstacle]:
+    turntable = output.turntable
+    if turntable is None:
+        return
+    if turntable.arrangement == "layers" and output.format != "exr":
+        message = "a PNG holds no frames as layers"
+        yield Obstacle("layers_need_exr", "/output/turntable/arrangement", message)
+    if max(output.file_size) > SIDE_MAX:
+        width, height = output.file_size
+        yield Obstacle(
+            "atlas_too_large",
+            "/output/turntable/frames",
+            f"the frames beside each other take {width} x {height} pixels; "
+            f"at most {SIDE_MAX} along a side",
+        )
 
 
 def _mipmaps(output: TextureOutput) -> Iterator[Obstacle]:

@@ -16,16 +16,10 @@ if TYPE_CHECKING:
 MAPS_MAX = 24
 """Maps on one surface: with eight to spare, what OpenGL lets a shader read."""
 
-Filter = Literal[
-    "nearest",
-    "bilinear",
-    "trilinear",
-    "anisotropic",
-    "ewa",
-    "ripmap",
-    "summed_area",
-    "formula",
+PictureFilter = Literal[
+    "nearest", "bilinear", "trilinear", "anisotropic", "ewa", "ripmap", "summed_area"
 ]
+Filter = Literal[PictureFilter, "formula"]
 Pyramid = Literal["box", "kaiser"]
 TableFilter = Literal["ripmap", "summed_area"]
 TABLE_FILTERS: Final[tuple[TableFilter, ...]] = get_args(TableFilter)

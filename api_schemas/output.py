@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from api_schemas.base import UNIQUE_ITEMS, WHOLE, Schema
+from api_schemas.turntable import Turntable
 
 SIDE_MAX = 16384
 """Pixels along a side of anything: the largest texture OpenGL takes."""
@@ -43,6 +44,12 @@ LayerName = Annotated[str, Field(pattern="^[a-z][a-z0-9_]{0,31}$")]
 
 MEDIA_TYPES: Mapping[Format, MediaType] = {"png": "image/png", "exr": "image/x-exr"}
 """The media type of each file format."""
+
+
+def near_square(cells: int, size: list[int]) -> int:
+    """Return how many cells of a size a row has, so that all rows make about a square."""
+    width, height = size
+    return max(1, min(cells, round(math.sqrt(cells * height / width))))
 
 
 class Output(Schema):
@@ -110,8 +117,7 @@ class TextureOutput(Output):
     def columns(self) -> int:
         """Slices in a row of the file."""
         slices = self.slices if self.slices and self.arrangement == "atlas" else 1
-        width, height = self.size
-        return max(1, min(slices, round(math.sqrt(slices * height / width))))
+        return near_square(slices, self.size)
 
     @property
     def file_size(self) -> tuple[int, int]:
@@ -161,3 +167,23 @@ class RenderOutput(Output):
         "texel_density as x / (1 + x), shading_difference as d / 2 + 1/2, position and coverage as "
         "they are, cut off outside of 0..1.",
     )
+    turntable: Turntable | None = Field(
+        default=None, description="Several frames of the scene, which turns; size is that of one."
+    )
+
+    @property
+    def frames(self) -> int:
+        """How many times the scene is drawn."""
+        return len(self.turntable.drawn) if self.turntable else 1
+
+    @property
+    def columns(self) -> int:
+        """Frames in a row of the file."""
+        return near_square(self.turntable.cells if self.turntable else 1, self.size)
+
+    @property
+    def file_size(self) -> tuple[int, int]:
+        """Width and height of the file: of all frames, where they lie beside each other."""
+        cells = self.turntable.cells if self.turntable else 1
+        rows = math.ceil(cells / self.columns)
+        return self.size[0] * self.columns, self.size[1] * rows

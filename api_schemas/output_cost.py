@@ -60,6 +60,11 @@ def writing(output: Output) -> Cost:
         if output.format == "exr":
             numbers = sum(LAYER_CHANNELS[layer] for layer in output.layers)
         held = min(pixels, _samples_per_tile(output))
+        if output.turntable:
+            # A row of the sheet is held whole; frames that become layers are held all.
+            rows = math.ceil(output.turntable.cells / output.columns)
+            pixels = max(pixels, math.prod(output.size) * output.frames)
+            held = pixels // rows
     else:
         held = pixels
         if isinstance(output, TextureOutput) and output.mipmaps:
@@ -74,11 +79,11 @@ def writing(output: Output) -> Cost:
 def sampling(output: RenderOutput) -> Cost:
     """Return the cost of a picture's samples where nothing is, and of making pixels of them."""
     samples = samples_of(output)
-    held = min(samples, _samples_per_tile(output))
+    held = min(samples // output.frames, _samples_per_tile(output))
     filtering = 0.0 if output.pixel_filter == "box" else samples * _SECONDS_PER_FILTERED_SAMPLE
     if not output.layers:
         return Cost(samples * _SECONDS_PER_SAMPLE + filtering, float(held * _BYTES_PER_SAMPLE))
-    pixels = output.size[0] * output.size[1]
+    pixels = output.size[0] * output.size[1] * output.frames
     return Cost(
         samples * _SECONDS_PER_LAYERED_SAMPLE + pixels * _SECONDS_PER_LAYERED_PIXEL + 2 * filtering,
         float(held * _BYTES_PER_LAYERED_SAMPLE),
@@ -86,16 +91,18 @@ def sampling(output: RenderOutput) -> Cost:
 
 
 def samples_of(output: RenderOutput) -> int:
-    """Return how many samples are drawn, those beyond the picture's edges included."""
+    """Return how many samples are drawn, of all frames and beyond the picture's edges too."""
     more = 0 if output.pixel_filter == "box" else 2
     once = output.size[0] * output.size[1] * ("shading_difference" in output.layers)
-    return once + (output.size[0] + more) * (output.size[1] + more) * output.supersampling**2
+    drawn = (output.size[0] + more) * (output.size[1] + more) * output.supersampling**2
+    return output.frames * (drawn + once)
 
 
 def tiles_of(output: RenderOutput) -> int:
     """Return in about how many tiles they are drawn: each draws every triangle again."""
     columns, rows = (math.ceil(side * output.supersampling / SIDE_MAX) for side in output.size)
-    return max(columns * rows, math.ceil(samples_of(output) / _samples_per_tile(output)))
+    samples = samples_of(output) // output.frames
+    return output.frames * max(columns * rows, math.ceil(samples / _samples_per_tile(output)))
 
 
 def _samples_per_tile(output: RenderOutput) -> int:

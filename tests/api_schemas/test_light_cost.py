@@ -75,3 +75,17 @@ def test_every_light_asks_every_picture():
     plain = [many([SUN] * count).seconds for count in (4, 8)]
     # One picture and one program more; then 1e6 samples of 20 ns for each light.
     assert seconds(8) - plain[1] - (seconds(4) - plain[0]) == pytest.approx(4 * 2e-8 * 2**20)
+
+
+def test_every_frame_of_a_turn_is_drawn():
+    def turning(**turntable):
+        scene = {"lights": [SUN | {"shadow": {}}], "nodes": [WALL]}
+        output = {"size": [512, 512], "turntable": turntable}
+        return estimate(RenderRequest.model_validate({"scene": scene, "output": output}), {})
+
+    one, few, many_ = turning(frame=3), turning(frames=8), turning(frames=32)
+
+    assert 24 * one.seconds * 0.8 < many_.seconds - few.seconds < 24 * one.seconds
+    assert many_.bytes < 2 * few.bytes  # a row of frames is held, not all
+    layers = turning(frames=32, arrangement="layers")
+    assert layers.bytes > 32 * 512 * 512 * 48

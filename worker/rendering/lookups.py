@@ -8,7 +8,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from api_schemas.families import Meaning, TextureSpec
+from api_schemas.families import LayoutSpec, Meaning, TextureSpec
 from api_schemas.layouts.cube import CubeSpec
 from api_schemas.maps import TABLE_FILTERS, Filter, Map, TextureTransform
 from api_schemas.relief import AnyMap, ParallaxMap
@@ -38,12 +38,13 @@ class TextureSource(Protocol):
         levels: bool,
         cut: Cut | None = None,
         preparation: Preparation | None = None,
+        layout: LayoutSpec | None = None,
         form: StoredForm = BOX,
     ) -> Texture:
         """Return the texture of a spec, with its mip levels if asked for, or as a table.
 
         With a cut, the levels have as many holes as the texture. With a preparation, it holds what
-        that asks for.
+        that asks for. With a layout, what that holds is drawn out over the rest.
         """
 
     def volume(self, spec: TextureSpec, meaning: Meaning, *, levels: bool) -> Texture:
@@ -167,7 +168,12 @@ class Lookups:
         else:
             form = StoredForm.of(filter_name, mapped.pyramid, (u, v), border)
             texture = self._texture_of(
-                *read, levels=sampling.levels, cut=cut, preparation=preparation, form=form
+                *read,
+                levels=sampling.levels,
+                cut=cut,
+                preparation=preparation,
+                layout=mapped.layout,
+                form=form,
             )
         picture = Picture(texture, sampling, border)
         if picture not in self.pictures:

@@ -5,6 +5,7 @@ import functools
 import time
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -16,19 +17,21 @@ from api_schemas.output import RenderOutput
 from api_schemas.scene import Scene
 from api_schemas.textures.constant import ConstantSpec
 from worker.errors import RenderError
+from worker.geometry.transforms import Matrix
 from worker.images.image import Image
 from worker.models.model import Model
 from worker.rendering.bands import Band, OpenBand
 from worker.rendering.cryptomatte import Mattes, attributes, mattes_of
 from worker.rendering.gl_context import GLContext, check
-from worker.rendering.lighting import Lighting, lighting
+from worker.rendering.lighting import lighting
 from worker.rendering.packing import SHADING_DIFFERENCE
 from worker.rendering.pixel_filters import apron
 from worker.rendering.placing import ModelReader
 from worker.rendering.pyrender_adapter import FloatRenderer
 from worker.rendering.pyrender_scene import FlatScene
-from worker.rendering.scene_builder import SceneBuilder
+from worker.rendering.scene_builder import BuiltScene, SceneBuilder
 from worker.rendering.shading import surface_fields
+from worker.rendering.surroundings import with_surroundings
 from worker.rendering.targets import TargetPair
 from worker.rendering.texture_maker import TextureMaker
 from worker.rendering.tiles import (
@@ -39,6 +42,7 @@ from worker.rendering.tiles import (
     tile_size,
     widened,
 )
+from worker.rendering.turntable import layers, sheet, turns_of
 from worker.stages import Report
 
 _GREY = ConstantSpec(technique="constant", value=[0.5, 0.5, 0.5])
@@ -118,34 +122,62 @@ def render(
     width, height = output.size
     report(0.0, "build")
     start = time.perf_counter()
+    turns = turns_of(output.turntable)
     built = engine.builder.build(
-        scene, width / height, textures, models, tangents="tangent" in output.layers
+        scene,
+        width / height,
+        textures,
+        models,
+        tangents="tangent" in output.layers,
+        turns=turns,
     )
-    placed = FlatScene(built.drawables, built.view, built.background, built.sky)
-    eye = built.view.world_from_camera[:3, 3]
-    lights = lighting(
-        built.lights,
-        eye,
-        built.cookies,
-        placed.corners,
-        visibility="light_visibility" in output.layers,
-    )
-    timings = {"build_ms": _milliseconds(time.perf_counter() - start)}
+    built = with_surroundings(built, engine.renderer, engine.targets, engine.builder, textures)
+    timings = {
+        "build_ms": _milliseconds(time.perf_counter() - start),
+        "draw_ms": 0.0,
+        "jit_ms": 0.0,
+    }
     counts = {"triangles": built.triangles, "texels": built.texels}
     mattes = mattes_of(built.drawables, output.layers)
-    drawn = _bands(engine, placed, lights, mattes, output, timings, report)
-    return Rendering(drawn, counts, timings, attributes(mattes), built.report, built.warnings)
+
+    def frame(number: int, turn: Matrix) -> Iterator[Band]:
+        def share(done: float, stage: str) -> None:
+            report((number + done) / len(turns), stage)
+
+        return _bands(engine, built, turn, mattes, output, timings, share)
+
+    frames = (frame(number, turn) for number, turn in enumerate(turns))
+    if output.turntable is None:
+        drawn = next(frames)
+    elif output.turntable.arrangement == "sheet":
+        drawn = sheet(frames, output.columns)
+    else:
+        drawn = layers(frames)
+    finished = _finished(engine, drawn)
+    return Rendering(finished, counts, timings, attributes(mattes), built.report, built.warnings)
+
+
+def _finished(engine: _Engine, bands: Iterator[Band]) -> Iterator[Band]:
+    """Yield bands, and free what is not kept for other pictures after the last one."""
+    yield from bands
+    engine.trim()
 
 
 def _bands(
     engine: _Engine,
-    scene: FlatScene,
-    lights: Lighting,
+    built: BuiltScene,
+    turn: Matrix,
     mattes: Mapping[str, Mattes],
     output: RenderOutput,
     timings: dict[str, float],
     report: Report,
 ) -> Iterator[Band]:
+    start = time.perf_counter()
+    moved = [replace(d, world_from_object=turn @ d.world_from_object) for d in built.drawables]
+    scene = FlatScene(moved, built.view, built.background, built.sky)
+    eye = built.view.world_from_camera[:3, 3]
+    visible = "light_visibility" in output.layers
+    lights = lighting(built.lights, eye, built.cookies, scene.corners, visibility=visible)
     width, height = output.size
     supersampling = output.supersampling
     layered = bool(output.layers)
@@ -156,7 +188,6 @@ def _bands(
         *size, supersampling, layered=layered, pixel_filter=output.pixel_filter
     )
     jit_before = engine.renderer.jit_seconds
-    start = time.perf_counter()
     engine.renderer.draw_shadows(scene, lights)
     spent = time.perf_counter() - start
     for tiles in bands(width, height, size):
@@ -188,8 +219,8 @@ def _bands(
         spent += time.perf_counter() - start
         yield band.images()
     jit = engine.renderer.jit_seconds - jit_before
-    timings |= {"draw_ms": _milliseconds(spent - jit), "jit_ms": _milliseconds(jit)}
-    engine.trim()
+    timings["draw_ms"] = round(timings["draw_ms"] + _milliseconds(spent - jit), 3)
+    timings["jit_ms"] = round(timings["jit_ms"] + _milliseconds(jit), 3)
     report(1.0, "draw")
 
 
@@ -212,8 +243,15 @@ def warm(report: Report, textures: TextureMaker) -> None:
         textures: Makes the tables that surfaces bring themselves; they are kept.
     """
 
-    def picture(spec: TextureSpec, meaning: Meaning, proportion: tuple[int, int] = (1, 1)) -> Image:
-        return _grey(meaning) if spec == _GREY else textures.picture(spec, meaning, proportion)
+    def picture(
+        spec: TextureSpec,
+        meaning: Meaning,
+        proportion: tuple[int, int] = (1, 1),
+        rendered: Mapping[str, Image] = MappingProxyType({}),
+    ) -> Image:
+        if spec == _GREY:
+            return _grey(meaning)
+        return textures.picture(spec, meaning, proportion, rendered)
 
     maker = replace(textures, picture=picture)
 

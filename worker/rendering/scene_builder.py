@@ -1,8 +1,12 @@
 """From a request's scene to drawables: nodes placed, meshes and textures uploaded or found."""
 
 import itertools
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from api_schemas.coordinates.uv import UvSpec
 from api_schemas.families import SurfaceSpec
@@ -10,9 +14,10 @@ from api_schemas.lights import Light
 from api_schemas.maps import ColorMap
 from api_schemas.scene import Scene
 from api_schemas.surfaces.unlit import UnlitSpec
+from worker.geometry.transforms import Matrix
 from worker.rendering.cookies import Cookies, cookies_of
 from worker.rendering.kept_meshes import MeshCache, frames_report
-from worker.rendering.placing import ModelReader, place
+from worker.rendering.placing import ModelReader, Placed, place
 from worker.rendering.pyrender_scene import Background, Drawable, View
 from worker.rendering.shading import Shading, shade
 from worker.rendering.sky import Skies, Sky
@@ -26,6 +31,14 @@ LARGEST_LIGHT = 5e36
 
 
 @dataclass(frozen=True, slots=True)
+class Mirror:
+    """Drawables of one node that see the rest of the scene, and how finely."""
+
+    numbers: tuple[int, ...]
+    side: int
+
+
+@dataclass(frozen=True, slots=True)
 class BuiltScene:
     """What a picture is drawn from, and how much of it there is."""
 
@@ -35,6 +48,7 @@ class BuiltScene:
     cookies: Cookies
     background: Background | None
     sky: Sky | None
+    mirrors: tuple[Mirror, ...]
     triangles: int
     texels: int
     report: dict[str, Any]
@@ -58,6 +72,7 @@ class SceneBuilder:
         reader: ModelReader,
         *,
         tangents: bool = False,
+        turns: Sequence[Matrix] = (np.eye(4),),
     ) -> BuiltScene:
         """Place, upload and lay out everything in a scene.
 
@@ -67,6 +82,7 @@ class SceneBuilder:
             maker: Makes the pictures of textures that are not kept from an earlier scene.
             reader: Reads the uploaded models.
             tangents: Whether all meshes need them, not only those with normal maps.
+            turns: How all things will be moved, frame by frame; a camera that frames sees all.
 
         Raises:
             WorkerError: The camera is degenerate, a budget is exceeded, a texture cannot be made,
@@ -95,7 +111,8 @@ class SceneBuilder:
         endless = any(found.mesh.tile is not None for found in kept)
         bounded = any(found.mesh.tile is None for found in kept)
         vertices = (
-            (found.mesh.positions, item.world_from_object)
+            (found.mesh.positions, turn @ item.world_from_object)
+            for turn in turns
             for item, found in zip(placed, kept, strict=True)
             if found.mesh.tile is None or not bounded  # planes without end are framed only alone
         )
@@ -124,6 +141,7 @@ class SceneBuilder:
             view=view,
             background=background,
             sky=sky,
+            mirrors=_mirrors(placed),
             lights=tuple(lights),
             cookies=cookies,
             triangles=sum(len(found.mesh.elements) for found in kept),
@@ -133,6 +151,10 @@ class SceneBuilder:
                 dict.fromkeys(itertools.chain(*(item.model.warnings for item in models), left_out))
             ),
         )
+
+    def sky_of_faces(self, faces: NDArray[np.float32], maker: TextureMaker) -> Sky:
+        """Return the sky of a cube (6, side, side, 3) that was rendered."""
+        return self._skies.sky_of_faces(faces, maker)
 
     def trim(self) -> None:
         """Free what exceeds the bounds; call it when nothing is being drawn."""
@@ -153,3 +175,16 @@ class SceneBuilder:
             surface = UnlitSpec(technique="unlit", color=spec.model_copy(update=where))
             return self._shading(surface, maker)
         return tuple(min(value, LARGEST_LIGHT) for value in spec)
+
+
+def _mirrors(placed: list[Placed]) -> tuple[Mirror, ...]:
+    numbers: dict[int, list[int]] = {}
+    for number, item in enumerate(placed):
+        if item.node.surroundings is not None:
+            numbers.setdefault(id(item.node), []).append(number)
+    found = []
+    for of_node in numbers.values():
+        spec = placed[of_node[0]].node.surroundings
+        assert spec is not None
+        found.append(Mirror(tuple(of_node), spec.side))
+    return tuple(found)

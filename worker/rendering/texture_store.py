@@ -2,13 +2,15 @@
 
 from functools import partial
 
-from api_schemas.families import Meaning, TextureSpec
+from api_schemas.families import LayoutSpec, Meaning, TextureSpec
 from api_schemas.layouts.cube import CubeSpec
 from worker.errors import RenderError
+from worker.images.image import Image
 from worker.images.pyramids import Cut, mip_chain
 from worker.images.relief import Preparation, prepared
 from worker.images.stored_form import BOX, StoredForm, stored
 from worker.images.volume_pyramids import volume_chain
+from worker.layouts import filled
 from worker.layouts.cube import faces_of_opengl
 from worker.rendering.cache import ByteCache
 from worker.rendering.closed_forms import Formula, formula
@@ -46,14 +48,18 @@ class _Source:
         levels: bool,
         cut: Cut | None = None,
         preparation: Preparation | None = None,
+        layout: LayoutSpec | None = None,
         form: StoredForm = BOX,
     ) -> Texture:
         cut = cut if levels or form.kind == "ripmap" else None
         form = form if levels or form.is_table else BOX
-        key = (spec.model_dump_json(), meaning, levels, cut, preparation, form)
+        holding = None if layout is None or layout.whole else layout
+        key = (spec.model_dump_json(), meaning, levels, cut, preparation, holding, form)
 
         def make() -> tuple[Texture, int]:
             image = prepared(self._maker(spec, meaning), preparation)
+            if holding is not None:
+                image = Image(filled(holding, image.pixels), image.meaning)
             chain = stored(image.pixels, form, levels=levels, cut=cut)
             return _sized(Texture.upload(chain, image.meaning, (image.height, image.width)))
 

@@ -22,6 +22,7 @@ EXAMPLES = [
     "material_map",
     "occlusion",
     "shadows",
+    "turntable",
 ]
 
 
