@@ -49,7 +49,7 @@ SECONDS_PER_MAP_SAMPLE = {
     "ewa": 6e-7,
     "ripmap": 1e-7,
     "summed_area": 5e-7,
-    "formula": 3e-7,
+    "formula": 4e-7,
 }
 SECONDS_PER_PARALLAX_STEP = 2e-8
 SECONDS_TO_COMPILE_A_MAP = 0.12

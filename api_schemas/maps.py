@@ -16,12 +16,10 @@ if TYPE_CHECKING:
 MAPS_MAX = 24
 """Maps on one surface: with eight to spare, what OpenGL lets a shader read."""
 
-PictureFilter = Literal[
-    "nearest", "bilinear", "trilinear", "anisotropic", "ewa", "ripmap", "summed_area"
-]
-Filter = Literal[PictureFilter, "formula"]
-Pyramid = Literal["box", "kaiser"]
+PictureFilter = Literal["nearest", "bilinear", "trilinear", "anisotropic"]
 TableFilter = Literal["ripmap", "summed_area"]
+Filter = Literal[PictureFilter, "ewa", TableFilter, "formula"]
+Pyramid = Literal["box", "kaiser"]
 TABLE_FILTERS: Final[tuple[TableFilter, ...]] = get_args(TableFilter)
 """Filters that read a table of their own in the place of smaller levels."""
 TABLE_SIDE_MAX: Final = 8180

@@ -94,8 +94,8 @@ def samples_of(output: RenderOutput) -> int:
     """Return how many samples are drawn, of all frames and beyond the picture's edges too."""
     more = 0 if output.pixel_filter == "box" else 2
     once = output.size[0] * output.size[1] * ("shading_difference" in output.layers)
-    drawn = (output.size[0] + more) * (output.size[1] + more) * output.supersampling**2
-    return output.frames * (drawn + once)
+    seen = (output.size[0] + more) * (output.size[1] + more) * output.supersampling**2
+    return output.frames * (once + seen)
 
 
 def tiles_of(output: RenderOutput) -> int:

@@ -228,8 +228,8 @@ class FlatScene(pyrender.Scene):  # type: ignore[misc]
 
     def corners(self) -> NDArray[np.float64]:
         """Give the corners of boxes that hold all that has an end: (n, 3) in the world."""
-        bounded = (drawable for drawable in self._drawables if drawable.mesh.tile is None)
-        boxes = [drawable.corners() for drawable in bounded]
+        ended = (drawable for drawable in self._drawables if drawable.mesh.tile is None)
+        boxes = [drawable.corners() for drawable in ended]
         return np.concatenate([np.empty((0, 3)), *boxes])
 
     def sky_of(self, primitive: SurfacePrimitive) -> Sky | None:

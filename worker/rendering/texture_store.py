@@ -5,7 +5,6 @@ from functools import partial
 from api_schemas.families import LayoutSpec, Meaning, TextureSpec
 from api_schemas.layouts.cube import CubeSpec
 from worker.errors import RenderError
-from worker.images.image import Image
 from worker.images.pyramids import Cut, mip_chain
 from worker.images.relief import Preparation, prepared
 from worker.images.stored_form import BOX, StoredForm, stored
@@ -58,9 +57,8 @@ class _Source:
 
         def make() -> tuple[Texture, int]:
             image = prepared(self._maker(spec, meaning), preparation)
-            if holding is not None:
-                image = Image(filled(holding, image.pixels), image.meaning)
-            chain = stored(image.pixels, form, levels=levels, cut=cut)
+            pixels = image.pixels if holding is None else filled(holding, image.pixels)
+            chain = stored(pixels, form, levels=levels, cut=cut)
             return _sized(Texture.upload(chain, image.meaning, (image.height, image.width)))
 
         return self._kept.get(key, make)
