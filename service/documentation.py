@@ -120,6 +120,7 @@ OBSTACLE_CODES: Final = (
     "time_step_unstable",
     "no_steady_state",
     "reaction_diverged",
+    "exemplar_unusable",
     "coordinates_unsuited",
     "coordinates_missing",
     "mipmaps_need_exr",

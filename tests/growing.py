@@ -15,7 +15,7 @@ def upload(index):
     return {"technique": "image", "asset": f"{index:064x}"}
 
 
-def grow(technique, exemplar, size, *, meaning="colour", **fields):
+def grow(technique, exemplar, size, *, meaning="colour", show=None, **fields):
     """Make a texture of an exemplar, (height, width, channels), at (width, height).
 
     Fields that are arrays are uploaded, too.
@@ -32,7 +32,7 @@ def grow(technique, exemplar, size, *, meaning="colour", **fields):
     def load(spec, meaning):
         return Image(np.ascontiguousarray(pictures[int(spec.asset, 16)], np.float32), meaning)
 
-    return outcome(TEXTURE.validate_python(body), tuple(size), load, meaning)
+    return outcome(TEXTURE.validate_python(body), tuple(size), load, meaning, show=show)
 
 
 def noise(height, width, channels=3, seed=0):

@@ -13,7 +13,7 @@ from worker.stages import silent
 from worker.synthesis.by_example.exemplar import Exemplar
 from worker.synthesis.by_example.features import edge_distance, weighed
 from worker.synthesis.by_example.optimisation import optimise
-from worker.synthesis.by_example.result import finished
+from worker.synthesis.by_example.result import finished, gathered
 from worker.synthesis.by_example.task import Task
 from worker.synthesis.by_example.wishes import Wishes
 
@@ -22,17 +22,18 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from worker.stages import Report
+    from worker.preview import Progress
     from worker.synthesis.outcome import Outcome
 
     Bytes = NDArray[np.uint8]
+    Integers = NDArray[np.int32]
 
 
 def synthesize(
     spec: TextureOptimizationSpec,
     size: tuple[int, int],
     inputs: Mapping[str, Image],
-    report: Report,
+    report: Progress,
 ) -> Outcome:
     """Grow `spec.size` pixels and bring them to (width, height).
 
@@ -54,7 +55,17 @@ def synthesize(
     if wishes.keep is not None:
         kept = _compared(exemplar.matching(wishes.keep), spec.outlines, wishes.share)
         task = task.keeping(kept, wishes.fixed)
-    return finished(optimise(task, report), exemplar, inputs, size, wishes.keep)
+    told = 0.0
+
+    def tell(share: float, step: str) -> None:
+        nonlocal told
+        told = share
+        report(share, step)
+
+    def show(place: Integers) -> None:
+        report(told, "so far", gathered(place, exemplar.image))
+
+    return finished(optimise(task, tell, show), exemplar, inputs, size, wishes.keep)
 
 
 def warm() -> None:

@@ -130,3 +130,14 @@ def test_another_seed_is_another_texture():
     assert (
         grow(exemplar, (40, 40)).image.pixels != grow(exemplar, (40, 40), seed=1).image.pixels
     ).any()
+
+
+def test_there_is_something_to_see_before_it_is_finished():
+    exemplar, seen = noise(64, 64), []
+
+    grow(exemplar, (128, 96), show=seen.append)
+
+    widths = [image.width for image in seen]
+    assert widths == sorted(widths)
+    assert (widths[0], widths[-1]) == (64, 128)
+    assert all(colours(image.pixels) <= colours(exemplar) for image in seen)

@@ -24,6 +24,8 @@ from worker.synthesis.by_example.voting import vote
 from worker.synthesis.by_example.windows import fitting_side, whole_windows
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
     from worker.stages import Report
@@ -40,10 +42,17 @@ _DENSE_BELOW = 160
 _PRESSURE = 0.1
 
 
-def optimise(task: Task, report: Report) -> Integers:
+def optimise(
+    task: Task, report: Report, show: Callable[[Integers], None] | None = None
+) -> Integers:
     """Return the row and column of the source pixel for every target pixel, (height, width, 2).
 
     Where pixels are fixed it is -1.
+
+    Args:
+        task: What is to be made of what.
+        report: Told how far it is.
+        show: Given what has been found so far, on coarse levels for less pixels.
     """
     steps = levels(task)
     work = [_rounds(level) * level.fixed.size for level in steps]
@@ -56,6 +65,9 @@ def optimise(task: Task, report: Report) -> Integers:
             done = sum(work[: level.depth]) + turn * level.fixed.size
             report(done / sum(work), name)
             state.advance(turn)
+            if show is not None and not level.fixed.any():
+                limits = np.array(task.usable.shape, np.int32) - 1
+                show(np.minimum(state.place * 2 ** (len(steps) - 1 - level.depth), limits))
     state.place[steps[-1].fixed] = -1
     return state.place
 
