@@ -7,7 +7,7 @@ from pydantic import Field
 from api_schemas.base import Length, Number, Schema, Vector
 from api_schemas.families import Wrap
 from api_schemas.language import Texture
-from api_schemas.maps import COLOUR, Filter, TextureTransform
+from api_schemas.maps import COLOUR, PictureFilter, TextureTransform
 
 COOKIES_MAX = 4
 """Different pictures before the lights of one scene: what maps leave of OpenGL's texture units."""
@@ -34,7 +34,7 @@ class Cookie(Schema):
         default=[0.0, 0.0, 0.0, 0.0],
         description="Linear light beyond the picture where wrap is border, with its alpha.",
     )
-    filter: Filter = Field(
+    filter: PictureFilter = Field(
         default="trilinear",
         description="How texels become a pixel: hard texels, smooth when near, smooth when far, "
         "or sharp at grazing angles too.",

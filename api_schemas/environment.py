@@ -6,9 +6,19 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from api_schemas.base import Angle, NonNegative, Schema
+from api_schemas.base import WHOLE, Angle, NonNegative, Schema
 from api_schemas.language import Layout, Texture
 from api_schemas.maps import COLOUR
+
+
+class Surroundings(Schema):
+    """The rest of the scene as one shape sees it from its middle."""
+
+    side: Annotated[int, Field(ge=16, le=512), WHOLE] = Field(
+        default=128,
+        description="Pixels along each face of the cube that is rendered: more show finer things "
+        "in a mirror.",
+    )
 
 
 class Environment(Schema):

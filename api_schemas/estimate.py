@@ -9,6 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TypeAlias
 
 from api_schemas.assets import AssetFacts, ImageFacts
+from api_schemas.base import Schema
 from api_schemas.bodies import (
     BYTES_PER_KEPT_TEXEL,
     BYTES_PER_TEXEL,
@@ -20,6 +21,7 @@ from api_schemas.bodies import (
 from api_schemas.by_example import FromExemplarSpec
 from api_schemas.camera import Camera, FramedCamera, ModelCamera, PosedCamera
 from api_schemas.cookies import Cookie
+from api_schemas.coordinates.triplanar import TriplanarSpec
 from api_schemas.cost import Cost
 from api_schemas.coverage import coverage, stand_in
 from api_schemas.families import SurfaceSpec, TextureSpec
@@ -32,6 +34,7 @@ from api_schemas.relief import AnyMap, ParallaxMap
 from api_schemas.requests import RenderRequest, Request
 from api_schemas.scene import Node
 from api_schemas.sky import SKY_SECONDS_PER_SAMPLE, sky_textures
+from api_schemas.solid import is_carved, worn_depth
 from api_schemas.textures.image import ImageSpec
 from api_schemas.walk import BRANCHES, outermost, parts
 
@@ -42,10 +45,11 @@ SECONDS_PER_MAP_SAMPLE = {
     "bilinear": 1e-8,
     "trilinear": 2e-8,
     "anisotropic": 1.5e-7,
-    "formula": 4e-7,
+    "formula": 3e-7,
 }
 SECONDS_PER_PARALLAX_STEP = 2e-8
 SECONDS_TO_COMPILE_A_MAP = 0.12
+SECONDS_TO_COMPILE_A_FORMULA = 0.4
 SECONDS_PER_DRAWN_TRIANGLE = 5e-8
 SECONDS_PER_DRAW = 2e-4
 SECONDS_PER_SORTED_TRIANGLE = 3e-7
@@ -185,7 +189,19 @@ def _seconds_per_sample(maps: Sequence[MAPS]) -> float:
 def _seconds_per_look(item: MAPS) -> float:
     if isinstance(item, ParallaxMap):
         return SECONDS_PER_PARALLAX_STEP * (1 if item.method == "offset" else item.steps)
-    return SECONDS_PER_MAP_SAMPLE[item.filter]
+    if item.filter == "formula":
+        once = sum(_seconds_per_formula(part) for _, part in parts(item.texture))
+    else:
+        once = SECONDS_PER_MAP_SAMPLE[item.filter]
+    return once * (3 if isinstance(item.coordinates, TriplanarSpec) else 1)
+
+
+def _seconds_per_formula(part: Schema) -> float:
+    """Return what a pixel of one formula takes, about, told from one of a picture."""
+    pixels = 1 << 20
+    if not isinstance(part, TextureSpec):
+        return 0.0
+    return SECONDS_PER_MAP_SAMPLE["formula"] + 20 * part.cost(pixels).seconds / pixels
 
 
 def _moved(placed: Affine | None, middle: Vector3) -> Affine | None:
@@ -219,13 +235,22 @@ class _WornTextures:
         """Return the cost of what these maps need and no earlier ones did."""
         cost = Cost()
         for item in maps:
-            picture = f"{type(item).__name__} {item.texture.model_dump_json()}"
+            if not isinstance(item, Cookie) and item.filter == "formula":
+                compiled = sum(isinstance(part, TextureSpec) for _, part in parts(item.texture))
+                cost += Cost(compiled * SECONDS_TO_COMPILE_A_FORMULA)
+                continue
+            carved = not isinstance(item, Cookie) and is_carved(item)
+            picture = f"{type(item).__name__} {carved} {item.texture.model_dump_json()}"
             if picture not in self._made:
                 self._made.add(picture)
-                picture_cost = _textures(item.texture, self._facts, item.texture.surface_size)
-                self.making = max(self.making, picture_cost.bytes)
-                texels = _texels_worn(item.texture, self._facts)
-                cost += Cost(picture_cost.seconds, texels * BYTES_PER_KEPT_TEXEL)
+                if carved:
+                    texels = worn_depth(item.texture) ** 3
+                    making = volume_of(item.texture, texels)
+                else:
+                    texels = _texels_worn(item.texture, self._facts)
+                    making = _textures(item.texture, self._facts, item.texture.surface_size)
+                self.making = max(self.making, making.bytes)
+                cost += Cost(making.seconds, texels * BYTES_PER_KEPT_TEXEL)
             if (program := f"{picture} {item.filter} {item.wrap}") not in self._made:
                 self._made.add(program)
                 cost += Cost(SECONDS_TO_COMPILE_A_MAP)

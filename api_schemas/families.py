@@ -130,8 +130,13 @@ class CoordinatesSpec(TechniqueSpec):
 class LayoutSpec(TechniqueSpec):
     """Says where on a picture each direction lies."""
 
-    joins: ClassVar[tuple[Wrap, Wrap]] = ("clamp", "clamp")
-    """What lies beyond the picture along u and v."""
+    whole: ClassVar[bool] = True
+    """Whether every place on the picture holds a direction."""
+
+    @property
+    def joins(self) -> tuple[Wrap, Wrap]:
+        """What lies beyond the picture along u and v."""
+        return ("clamp", "clamp")
 
     @property
     def proportion(self) -> tuple[int, int]:

@@ -9,7 +9,7 @@ from api_schemas.families import SurfaceSpec, TextureSpec
 from api_schemas.geometry import IDENTITY, Affine, Vector3, affine, cross, length, triple
 from api_schemas.light_cost import cookies_of
 from api_schemas.lights import DirectionalLight, Light, SpotLight
-from api_schemas.map_feasibility import map_obstacles
+from api_schemas.map_feasibility import formula_obstacles, map_obstacles
 from api_schemas.maps import MAPS_MAX, Map
 from api_schemas.model_mesh import ModelMesh
 from api_schemas.obstacle import Obstacle
@@ -79,6 +79,7 @@ def _limits(request: Request) -> Iterator[Obstacle]:
                 yield Obstacle(
                     "too_many_maps", pointer, f"{maps} maps on one surface; at most {most}"
                 )
+            yield from formula_obstacles(part, pointer)
         if isinstance(part, Map):
             yield from map_obstacles(part, pointer)
     for count, limit, things in (

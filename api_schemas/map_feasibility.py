@@ -3,12 +3,30 @@
 from collections.abc import Iterator
 
 from api_schemas.coordinates.triplanar import TriplanarSpec
-from api_schemas.families import TextureSpec
+from api_schemas.families import SurfaceSpec, TextureSpec
 from api_schemas.layouts.cube import CubeSpec
 from api_schemas.maps import ColorMap, Map, NumberMap, TextureTransform
 from api_schemas.obstacle import Obstacle
 from api_schemas.relief import BumpMap, HeightMap, ParallaxMap, ReliefMap
 from api_schemas.walk import parts
+
+FORMULAS_MAX = 24
+"""Textures worked out on one surface: their numbers fill a shader's uniforms."""
+
+
+def formula_obstacles(surface: SurfaceSpec, pointer: str) -> Iterator[Obstacle]:
+    """Yield that a surface has too many formulas, if it has."""
+    maps = [part for _, part in parts(surface) if isinstance(part, ColorMap | NumberMap)]
+    formulas = sum(
+        isinstance(part, TextureSpec)
+        for mapped in maps
+        if mapped.filter == "formula"
+        for _, part in parts(mapped.texture)
+    )
+    if formulas > FORMULAS_MAX:
+        yield Obstacle(
+            "too_many_maps", pointer, f"{formulas} formulas on one surface; at most {FORMULAS_MAX}"
+        )
 
 
 def map_obstacles(mapped: Map, pointer: str) -> Iterator[Obstacle]:

@@ -16,7 +16,8 @@ if TYPE_CHECKING:
 MAPS_MAX = 24
 """Maps on one surface: with eight to spare, what OpenGL lets a shader read."""
 
-Filter = Literal["nearest", "bilinear", "trilinear", "anisotropic", "formula"]
+PictureFilter = Literal["nearest", "bilinear", "trilinear", "anisotropic"]
+Filter = Literal[PictureFilter, "formula"]
 
 
 @dataclass(frozen=True, slots=True)

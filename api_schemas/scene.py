@@ -8,7 +8,7 @@ from pydantic import Field
 
 from api_schemas.base import Schema
 from api_schemas.camera import Camera
-from api_schemas.environment import Environment
+from api_schemas.environment import Environment, Surroundings
 from api_schemas.language import MappableColor, Surface
 from api_schemas.lights import LIGHTS_MAX, Light
 from api_schemas.meshes import Mesh
@@ -45,6 +45,11 @@ class Node(Schema):
     )
     displacement: Displacement | None = Field(
         default=None, description="A relief that moves the shape's own points, outlines included."
+    )
+    surroundings: Surroundings | None = Field(
+        default=None,
+        description="Lets its own mesh mirror, and be lit by, the rest of the scene as it is seen "
+        "from the mesh's middle, in the place of the environment alone.",
     )
     children: Annotated[list[Node], Field(max_length=NODES_MAX)] = Field(
         default=[], description="Nodes that move with this one."

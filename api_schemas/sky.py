@@ -17,7 +17,8 @@ SKY_SECONDS_TO_COMPILE = 0.5
 SKY_MAPS = 3
 """Texture units that an environment takes, and maps then cannot."""
 
-_COLUMN = CubeSpec(technique="cube", arrangement="column", orientation="gl")
+SKY_CUBE = CubeSpec(technique="cube", arrangement="column", orientation="gl")
+"""How a cube lies that OpenGL takes as it is."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +45,7 @@ def sky_textures(environment: Environment) -> SkyTextures:
     whole = None
     if not isinstance(layout, LatlongSpec):
         whole = ConvertLayoutSpec(
-            technique="convert_layout", environment=picture, layout=layout, to=_COLUMN
+            technique="convert_layout", environment=picture, layout=layout, to=SKY_CUBE
         )
     return SkyTextures(
         whole=whole,
@@ -52,14 +53,14 @@ def sky_textures(environment: Environment) -> SkyTextures:
             technique="prefiltered_environment",
             environment=picture,
             layout=layout,
-            to=_COLUMN,
+            to=SKY_CUBE,
             roughness=SKY_ROUGHNESS,
         ),
         matt=IrradianceSpec(
             technique="irradiance",
             environment=picture,
             layout=layout,
-            to=_COLUMN,
+            to=SKY_CUBE,
             method=environment.matt,
         ),
     )

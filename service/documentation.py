@@ -122,6 +122,7 @@ OBSTACLE_CODES: Final = (
     "reaction_diverged",
     "coordinates_unsuited",
     "coordinates_missing",
+    "mipmaps_need_exr",
     "layers_need_exr",
     "layer_unknown",
     "texture_not_solid",

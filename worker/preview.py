@@ -3,7 +3,7 @@
 import math
 import time
 from pathlib import Path
-from typing import Final
+from typing import Final, Protocol
 
 import numpy as np
 
@@ -12,6 +12,13 @@ from worker.images.image import Image
 
 SIDE_MAX: Final = 256
 SECONDS_BETWEEN: Final = 0.5
+
+
+class Progress(Protocol):
+    """Told the share that is done, 0..1, the step, and what there is to see of it."""
+
+    def __call__(self, share: float, stage: str, preview: Image | None = None) -> None:
+        """Tell it."""
 
 
 class Preview:

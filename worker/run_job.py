@@ -7,6 +7,7 @@ import hashlib
 import time
 from collections.abc import Callable, Mapping
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from api_schemas.families import Meaning, TextureSpec
@@ -137,10 +138,18 @@ def _find(body: Request, assets: Path) -> None:
 def _maker(read: Callable[[ImageSpec, Meaning], Image]) -> TextureMaker:
     """Make textures for surfaces: pictures at their own size, others at their technique's."""
 
-    def picture(spec: TextureSpec, meaning: Meaning, proportion: tuple[int, int] = (1, 1)) -> Image:
+    def picture(
+        spec: TextureSpec,
+        meaning: Meaning,
+        proportion: tuple[int, int] = (1, 1),
+        rendered: Mapping[str, Image] = MappingProxyType({}),
+    ) -> Image:
+        def found(spec: ImageSpec, meaning: Meaning) -> Image:
+            return rendered.get(spec.asset) or read(spec, meaning)
+
         if isinstance(spec, ImageSpec):
-            return read(spec, meaning)
-        return synthesis.synthesize(spec, worn_size(spec, proportion), read, meaning)
+            return found(spec, meaning)
+        return synthesis.synthesize(spec, worn_size(spec, proportion), found, meaning)
 
     def volume(spec: TextureSpec, meaning: Meaning) -> Volume:
         side = worn_depth(spec)

@@ -3,24 +3,14 @@
 import time
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Generic, Protocol, TypeVar
-
-if TYPE_CHECKING:
-    from worker.images.image import Image
+from typing import Generic, TypeVar
 
 T = TypeVar("T")
 Report = Callable[[float, str], None]
 """Told the share of something that is done, 0..1, and the name of its stage."""
 
 
-class Progress(Protocol):
-    """The same, and a picture of how far it is, where there is something to see."""
-
-    def __call__(self, share: float, stage: str, preview: "Image | None" = None) -> None:
-        """Tell it."""
-
-
-def silent(share: float, stage: str, preview: "Image | None" = None) -> None:
+def silent(share: float, stage: str, preview: object = None) -> None:
     """Tell nobody."""
 
 

@@ -12,6 +12,7 @@ class AngularProbeSpec(LayoutSpec):
 
     source: ClassVar[str] = "Debevec, 1998"
     equation: ClassVar[str] = "-z: (u, v) = 1/2 + (x, y) acos(-z) / (2 pi sqrt(x^2 + y^2))"
+    whole: ClassVar[bool] = False
 
     technique: Literal["angular_probe"]
     centre: Literal["-z", "+z"] = Field(

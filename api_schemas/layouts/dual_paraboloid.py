@@ -15,6 +15,7 @@ class DualParaboloidSpec(LayoutSpec):
 
     source: ClassVar[str] = "Heidrich and Seidel, 1998; Hughes et al., 2013, exercise 20.4"
     equation: ClassVar[str] = "(s, t) = 1/2 + (x, y) / (2 (1 + |z|)) in each square"
+    whole: ClassVar[bool] = False
 
     technique: Literal["dual_paraboloid"]
     second: Literal["textbook", "photograph"] = Field(

@@ -21,7 +21,7 @@ class FisheyeSpec(LayoutSpec):
         "r = a equidistant, 2 sin(a/2) equisolid, 2 tan(a/2) stereographic, sin(a) orthographic; "
         "over its value at the rim, a = angle / 2"
     )
-    joins: ClassVar[tuple[Wrap, Wrap]] = ("border", "border")
+    whole: ClassVar[bool] = False
 
     technique: Literal["fisheye"]
     model: Literal["equidistant", "equisolid", "stereographic", "orthographic"] = Field(
@@ -35,6 +35,11 @@ class FisheyeSpec(LayoutSpec):
         "pi if orthographic, and 6.2 if stereographic.",
     )
     towards: Towards = Field(default="-z", description="Where the lens looks.")
+
+    @property
+    def joins(self) -> tuple[Wrap, Wrap]:
+        """Black, where anything is beyond."""
+        return ("border", "border") if self.angle < 2 * math.pi else ("clamp", "clamp")
 
     def mistake(self) -> tuple[str, str] | None:
         """Some lenses cannot look behind themselves."""

@@ -12,6 +12,7 @@ class HemispheresSpec(LayoutSpec):
 
     source: ClassVar[str] = "Hughes et al., 2013, section 20.4"
     equation: ClassVar[str] = "(s, t) = ((x + 1) / 2, (z + 1) / 2) in each square"
+    whole: ClassVar[bool] = False
 
     technique: Literal["hemispheres"]
     second: Literal["mirrored", "photograph"] = Field(

@@ -14,5 +14,6 @@ class MirrorBallSpec(LayoutSpec):
 
     source: ClassVar[str] = "Miller and Hoffman, 1984"
     equation: ClassVar[str] = "(u, v) = 1/2 + (x, y) / (2 sqrt(2 (1 + z)))"
+    whole: ClassVar[bool] = False
 
     technique: Literal["mirror_ball"]

@@ -30,6 +30,11 @@ class BlueNoiseSpec(TextureSpec):
     side: Side = Field(default=64, description="Pixels along each side of the tile.")
     seed: Seed = Field(default=0, description="Another number, another noise.")
 
+    @property
+    def size(self) -> list[int]:
+        """Width and height of the tile in pixels."""
+        return [self.side, self.side]
+
     def cost(self, pixels: int) -> Cost:
         """Each pixel of the tile is placed once, and looks for its place among the rows."""
         cells = self.side**2

@@ -47,6 +47,11 @@ class WangTilesSpec(TextureSpec):
     )
     seed: Seed = Field(default=0, description="Another number, other pieces in another order.")
 
+    @property
+    def size(self) -> list[int]:
+        """Width and height of all tiles together in pixels."""
+        return [2 * self.half_side * count for count in self.tiles]
+
     def inner_size(self, size: tuple[int, int]) -> tuple[int, int]:
         """The exemplar has a size of its own."""
         return self.exemplar_size[0], self.exemplar_size[1]

@@ -16,6 +16,8 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
+from worker.images.spreading import spread
+
 if TYPE_CHECKING:
     from types import ModuleType
 
@@ -53,6 +55,18 @@ def solid_angles(spec: LayoutSpec, width: int, height: int) -> Numbers:
     Row 0 is the top; together they are the directions the layout holds, 4 pi if it holds all.
     """
     return cast("Numbers", _module(spec).solid_angles(spec, width, height))
+
+
+def filled(spec: LayoutSpec, pixels: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Draw what a layout holds out over the rest of a picture (height, width, channels).
+
+    So nothing of the corners round a disc bleeds into it when texels are blended.
+    """
+    if spec.whole:
+        return pixels
+    height, width, _ = pixels.shape
+    _, valid = direction(spec, texel_middles(width, height))
+    return spread(pixels, valid.reshape(height, width))
 
 
 def texel_middles(width: int, height: int) -> Numbers:

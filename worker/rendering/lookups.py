@@ -8,7 +8,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from api_schemas.families import Meaning, TextureSpec
+from api_schemas.families import LayoutSpec, Meaning, TextureSpec
 from api_schemas.layouts.cube import CubeSpec
 from api_schemas.maps import Map, TextureTransform
 from api_schemas.relief import AnyMap
@@ -37,11 +37,12 @@ class TextureSource(Protocol):
         levels: bool,
         cut: Cut | None = None,
         preparation: Preparation | None = None,
+        layout: LayoutSpec | None = None,
     ) -> Texture:
         """Return the texture of a spec, with its mip levels if asked for.
 
         With a cut, the levels have as many holes as the texture. With a preparation, it holds what
-        that asks for.
+        that asks for. With a layout, what that holds is drawn out over the rest.
         """
 
     def volume(self, spec: TextureSpec, meaning: Meaning, *, levels: bool) -> Texture:
@@ -161,7 +162,11 @@ class Lookups:
             texture = self._texture_of.volume(*read, levels=sampling.levels)
         else:
             texture = self._texture_of(
-                *read, levels=sampling.levels, cut=cut, preparation=preparation
+                *read,
+                levels=sampling.levels,
+                cut=cut,
+                preparation=preparation,
+                layout=mapped.layout,
             )
         picture = Picture(texture, sampling, border)
         if picture not in self.pictures:

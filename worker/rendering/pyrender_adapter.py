@@ -156,7 +156,7 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         layout, layered = primitive.material.shading.layout, self._frame.target.layered
         lights = LightLayout()
         if is_lit(layout.technique):
-            sky = self._frame.scene.sky
+            sky = self._frame.scene.sky_of(primitive)
             lights = replace(self._frame.lights.layout, sky=sky.kind if sky else "none")
         elif self._frame.lights.layout.visibility:
             lights = self._frame.lights.layout
@@ -171,8 +171,6 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         if program.frame == self._frame.number:
             return
         program.frame = self._frame.number
-        if scene.sky is not None and "sky_picture" in program.uniforms:
-            self._units.bind_sky(program, scene.sky)
         # Coordinates may ask where the lamps are, and not for their shadows.
         cookies = self._frame.lights.layout.samplers
         units = {"shadow_maps": SHADOW_UNIT} | {
@@ -190,6 +188,8 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         program.set("clip_from_object", self._frame.clip_from_object[number])
         scene.place(program, primitive)
         self._units.bind(program, primitive.material.shading)
+        if "sky_from_world" in program.uniforms and (sky := scene.sky_of(primitive)) is not None:
+            self._units.bind_sky(program, sky)
         if self._frame.target.layered:
             program.set("object_id", primitive.thing)
             program.set("material_id", primitive.material.number)

@@ -62,6 +62,7 @@ class Drawable:
         thing: The number of what it is or is a part of, from 1.
         casts_shadows: Whether it keeps light away.
         name: What people call it.
+        sky: Light from all around that is its own.
     """
 
     mesh: VertexArray
@@ -71,6 +72,14 @@ class Drawable:
     thing: int
     casts_shadows: bool
     name: str
+    sky: Sky | None = None
+
+    def corners(self) -> NDArray[np.float64]:
+        """Give the corners of a box that holds it: (8, 3) in the world."""
+        local = np.stack(np.meshgrid(*self.mesh.bounds.T), axis=-1).reshape(-1, 3)
+        matrix = self.world_from_object
+        corners: NDArray[np.float64] = local @ matrix[:3, :3].T + matrix[:3, 3]
+        return corners
 
 
 Background: TypeAlias = Shading | Sky | tuple[float, ...]
@@ -207,13 +216,12 @@ class FlatScene(pyrender.Scene):  # type: ignore[misc]
 
     def corners(self) -> NDArray[np.float64]:
         """Give the corners of boxes that hold all that is drawn: (n, 3) in the world."""
-        boxes = [
-            np.stack(np.meshgrid(*drawable.mesh.bounds.T), axis=-1).reshape(-1, 3)
-            @ drawable.world_from_object[:3, :3].T
-            + drawable.world_from_object[:3, 3]
-            for drawable in self._drawables
-        ]
+        boxes = [drawable.corners() for drawable in self._drawables]
         return np.concatenate([np.empty((0, 3)), *boxes])
+
+    def sky_of(self, primitive: SurfacePrimitive) -> Sky | None:
+        """Return the light from all around that a primitive gets."""
+        return self._drawables[primitive.number].sky or self.sky
 
     def place(self, program: Program, primitive: SurfacePrimitive) -> None:
         """Tell the bound program where a primitive stands to the eye."""

@@ -5,6 +5,7 @@ import functools
 import time
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -28,6 +29,7 @@ from worker.rendering.pyrender_adapter import FloatRenderer
 from worker.rendering.pyrender_scene import FlatScene
 from worker.rendering.scene_builder import BuiltScene, SceneBuilder
 from worker.rendering.shading import surface_fields
+from worker.rendering.surroundings import with_surroundings
 from worker.rendering.targets import TargetPair
 from worker.rendering.texture_maker import TextureMaker
 from worker.rendering.tiles import (
@@ -138,7 +140,13 @@ def render(
         def share(done: float, stage: str) -> None:
             report((number + done) / len(turns), stage)
 
-        return _bands(engine, built, turn, mattes, output, timings, share)
+        start = time.perf_counter()
+        things = [replace(d, world_from_object=turn @ d.world_from_object) for d in built.drawables]
+        turned = replace(built, drawables=tuple(things))
+        seen = with_surroundings(turned, engine.renderer, engine.targets, engine.builder, textures)
+        spent = _milliseconds(time.perf_counter() - start)
+        timings["build_ms"] = round(timings["build_ms"] + spent, 3)
+        return _bands(engine, seen, mattes, output, timings, share)
 
     frames = (frame(number, turn) for number, turn in enumerate(turns))
     if output.turntable is None:
@@ -160,15 +168,13 @@ def _finished(engine: _Engine, bands: Iterator[Band]) -> Iterator[Band]:
 def _bands(
     engine: _Engine,
     built: BuiltScene,
-    turn: Matrix,
     mattes: Mapping[str, Mattes],
     output: RenderOutput,
     timings: dict[str, float],
     report: Report,
 ) -> Iterator[Band]:
     start = time.perf_counter()
-    moved = [replace(d, world_from_object=turn @ d.world_from_object) for d in built.drawables]
-    scene = FlatScene(moved, built.view, built.background, built.sky)
+    scene = FlatScene(built.drawables, built.view, built.background, built.sky)
     eye = built.view.world_from_camera[:3, 3]
     visible = "light_visibility" in output.layers
     lights = lighting(built.lights, eye, built.cookies, scene.corners, visibility=visible)
@@ -225,8 +231,15 @@ def warm(report: Report, textures: TextureMaker) -> None:
         textures: Makes the tables that surfaces bring themselves; they are kept.
     """
 
-    def picture(spec: TextureSpec, meaning: Meaning, proportion: tuple[int, int] = (1, 1)) -> Image:
-        return _grey(meaning) if spec == _GREY else textures.picture(spec, meaning, proportion)
+    def picture(
+        spec: TextureSpec,
+        meaning: Meaning,
+        proportion: tuple[int, int] = (1, 1),
+        rendered: Mapping[str, Image] = MappingProxyType({}),
+    ) -> Image:
+        if spec == _GREY:
+            return _grey(meaning)
+        return textures.picture(spec, meaning, proportion, rendered)
 
     maker = replace(textures, picture=picture)
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from api_schemas.coordinates.uv import UvSpec
 from api_schemas.families import SurfaceSpec
@@ -16,7 +17,7 @@ from api_schemas.surfaces.unlit import UnlitSpec
 from worker.geometry.transforms import Matrix
 from worker.rendering.cookies import Cookies, cookies_of
 from worker.rendering.kept_meshes import MeshCache, frames_report
-from worker.rendering.placing import ModelReader, place
+from worker.rendering.placing import ModelReader, Placed, place
 from worker.rendering.pyrender_scene import Background, Drawable, View
 from worker.rendering.shading import Shading, shade
 from worker.rendering.sky import Skies, Sky
@@ -30,6 +31,14 @@ LARGEST_LIGHT = 5e36
 
 
 @dataclass(frozen=True, slots=True)
+class Mirror:
+    """Drawables of one node that see the rest of the scene, and how finely."""
+
+    numbers: tuple[int, ...]
+    side: int
+
+
+@dataclass(frozen=True, slots=True)
 class BuiltScene:
     """What a picture is drawn from, and how much of it there is."""
 
@@ -39,6 +48,7 @@ class BuiltScene:
     cookies: Cookies
     background: Background | None
     sky: Sky | None
+    mirrors: tuple[Mirror, ...]
     triangles: int
     texels: int
     report: dict[str, Any]
@@ -128,6 +138,7 @@ class SceneBuilder:
             view=view,
             background=background,
             sky=sky,
+            mirrors=_mirrors(placed),
             lights=tuple(lights),
             cookies=cookies,
             triangles=sum(len(found.mesh.elements) for found in kept),
@@ -137,6 +148,10 @@ class SceneBuilder:
                 dict.fromkeys(itertools.chain(*(item.model.warnings for item in models), left_out))
             ),
         )
+
+    def sky_of_faces(self, faces: NDArray[np.float32], maker: TextureMaker) -> Sky:
+        """Return the sky of a cube (6, side, side, 3) that was rendered."""
+        return self._skies.sky_of_faces(faces, maker)
 
     def trim(self) -> None:
         """Free what exceeds the bounds; call it when nothing is being drawn."""
@@ -157,3 +172,16 @@ class SceneBuilder:
             surface = UnlitSpec(technique="unlit", color=spec.model_copy(update=where))
             return self._shading(surface, maker)
         return tuple(min(value, LARGEST_LIGHT) for value in spec)
+
+
+def _mirrors(placed: list[Placed]) -> tuple[Mirror, ...]:
+    numbers: dict[int, list[int]] = {}
+    for number, item in enumerate(placed):
+        if item.node.surroundings is not None:
+            numbers.setdefault(id(item.node), []).append(number)
+    found = []
+    for of_node in numbers.values():
+        spec = placed[of_node[0]].node.surroundings
+        assert spec is not None
+        found.append(Mirror(tuple(of_node), spec.side))
+    return tuple(found)

@@ -3,6 +3,7 @@
 What is blurred is made by texture techniques, as anyone could ask for it, and kept by content.
 """
 
+import hashlib
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -14,7 +15,8 @@ from numpy.typing import NDArray
 from api_schemas.environment import Environment
 from api_schemas.families import Meaning, TextureSpec
 from api_schemas.layouts.latlong import LatlongSpec
-from api_schemas.sky import SKY_ROUGHNESS, sky_textures
+from api_schemas.sky import SKY_CUBE, SKY_ROUGHNESS, SkyTextures, sky_textures
+from api_schemas.textures.image import ImageSpec
 from worker.images.image import Image
 from worker.images.mending import mended
 from worker.images.pyramids import mip_chain
@@ -25,6 +27,7 @@ from worker.rendering.gl_context import GL
 from worker.rendering.programs import Program
 from worker.rendering.samplers import SamplerCache, Sampling
 from worker.rendering.shading_layout import SkyKind
+from worker.rendering.texture_maker import TextureMaker
 from worker.rendering.textures import Texture
 
 CUBES_BYTES_MAX = 64 << 20
@@ -74,29 +77,59 @@ class Skies:
         self._cubes = ByteCache[CubeTexture](CUBES_BYTES_MAX, CubeTexture.delete)
         self._pictures = ByteCache[Texture](CUBES_BYTES_MAX, Texture.delete)
 
-    def sky(self, spec: Environment, maker: Maker) -> Sky:
+    def sky(self, spec: Environment, maker: TextureMaker) -> Sky:
         """Make or find what a scene's environment needs.
 
         Raises:
             WorkerError: A texture cannot be made.
         """
         textures = sky_textures(spec)
-        kind: SkyKind = "latlong" if textures.whole is None else "cube"
-        picture: Texture | CubeTexture
-        if textures.whole is None:
-            picture = self._pictures.get(
-                spec.texture.model_dump_json(), lambda: _flat(maker(spec.texture, "colour"))
-            )
-        else:
-            picture = self._cube(textures.whole, maker, sharp_levels)
         uniforms: dict[str, Any] = {
             "sky_from_world": turned(spec.rotation_y),
             "sky_intensity": spec.intensity,
         }
+        picture: Texture | CubeTexture
         if isinstance(spec.layout, LatlongSpec):
+            proportion = spec.layout.proportion
+            picture = self._pictures.get(
+                spec.texture.model_dump_json(),
+                lambda: _flat(maker.picture(spec.texture, "colour", proportion)),
+            )
             uniforms["sky_centre"] = choice(spec.layout, "centre")
+        else:
+            assert textures.whole is not None
+            picture = self._cube(textures.whole, maker.picture, sharp_levels)
+        return self._blurred(picture, textures, uniforms, maker.picture)
+
+    def sky_of_faces(self, faces: NDArray[np.float32], maker: TextureMaker) -> Sky:
+        """Make or find the same of a cube (6, side, side, 3) that was rendered.
+
+        Raises:
+            WorkerError: A texture cannot be made.
+        """
+        light, _ = mended(faces)
+        column = np.ascontiguousarray(light.reshape(-1, *light.shape[2:]))
+        name = hashlib.sha256(repr(column.shape).encode() + column.tobytes()).hexdigest()
+        image = ImageSpec(technique="image", asset=name, encoding="linear")
+        spec = Environment(texture=image, layout=SKY_CUBE)
+        rendered = {name: Image(column, "colour")}
+
+        def picture(texture: TextureSpec, meaning: Meaning) -> Image:
+            return maker.picture(texture, meaning, (1, 1), rendered)
+
+        uniforms = {"sky_from_world": np.eye(3), "sky_intensity": 1.0}
+        sharp = self._cubes.get(name, lambda: _uploaded(sharp_levels(column)))
+        return self._blurred(sharp, sky_textures(spec), uniforms, picture)
+
+    def _blurred(
+        self,
+        picture: Texture | CubeTexture,
+        textures: SkyTextures,
+        uniforms: Mapping[str, Any],
+        maker: Maker,
+    ) -> Sky:
         return Sky(
-            kind,
+            "latlong" if isinstance(picture, Texture) else "cube",
             picture,
             self._cube(textures.rough, maker, _panels),
             self._cube(textures.matt, maker, lambda pixels: [faces_in(pixels)]),
@@ -114,11 +147,9 @@ class Skies:
         maker: Maker,
         levels: Callable[[NDArray[np.float32]], list[NDArray[np.float32]]],
     ) -> CubeTexture:
-        def make() -> tuple[CubeTexture, int]:
-            cube = CubeTexture.upload(levels(maker(spec, "colour").pixels))
-            return cube, cube.size_bytes
-
-        return self._cubes.get(spec.model_dump_json(), make)
+        return self._cubes.get(
+            spec.model_dump_json(), lambda: _uploaded(levels(maker(spec, "colour").pixels))
+        )
 
 
 def turned(angle: float) -> NDArray[np.float64]:
@@ -148,3 +179,8 @@ def _flat(image: Image) -> tuple[Texture, int]:
     light, _ = mended(image.pixels[..., : 3 if image.channels >= 3 else 1])
     texture = Texture.upload(mip_chain(light), "colour")
     return texture, texture.size_bytes
+
+
+def _uploaded(levels: list[NDArray[np.float32]]) -> tuple[CubeTexture, int]:
+    cube = CubeTexture.upload(levels)
+    return cube, cube.size_bytes

@@ -1,7 +1,8 @@
 """What turns textures of the language into what a surface is drawn with."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Protocol
 
 from api_schemas.families import Meaning, TextureSpec
@@ -14,11 +15,17 @@ class PictureMaker(Protocol):
     """Makes pictures."""
 
     def __call__(
-        self, spec: TextureSpec, meaning: Meaning, proportion: tuple[int, int] = (1, 1), /
+        self,
+        spec: TextureSpec,
+        meaning: Meaning,
+        proportion: tuple[int, int] = (1, 1),
+        rendered: Mapping[str, Image] = MappingProxyType({}),
+        /,
     ) -> Image:
         """Return the picture, read as colour or as data.
 
-        Unless it has a size of its own, its sides are whole multiples of the proportion's.
+        Unless it has a size of its own, its sides are whole multiples of the proportion's. Assets
+        that nobody uploaded are sought among the rendered ones.
         """
 
 

@@ -2,13 +2,14 @@
 
 from functools import partial
 
-from api_schemas.families import Meaning, TextureSpec
+from api_schemas.families import LayoutSpec, Meaning, TextureSpec
 from api_schemas.layouts.cube import CubeSpec
 from worker.errors import RenderError
 from worker.images.image import Image
 from worker.images.pyramids import Cut, keep_coverage, mip_chain
 from worker.images.relief import Preparation, prepared
 from worker.images.volume_pyramids import volume_chain
+from worker.layouts import filled
 from worker.layouts.cube import faces_of_opengl
 from worker.rendering.cache import ByteCache
 from worker.rendering.closed_forms import Formula, formula
@@ -46,12 +47,17 @@ class _Source:
         levels: bool,
         cut: Cut | None = None,
         preparation: Preparation | None = None,
+        layout: LayoutSpec | None = None,
     ) -> Texture:
         cut = cut if levels else None
-        key = (spec.model_dump_json(), meaning, levels, cut, preparation)
+        holding = None if layout is None or layout.whole else layout
+        key = (spec.model_dump_json(), meaning, levels, cut, preparation, holding)
 
         def make() -> tuple[Texture, int]:
-            return _upload(prepared(self._maker(spec, meaning), preparation), levels, cut)
+            image = prepared(self._maker(spec, meaning), preparation)
+            if holding is not None:
+                image = Image(filled(holding, image.pixels), image.meaning)
+            return _upload(image, levels, cut)
 
         return self._kept.get(key, make)
 

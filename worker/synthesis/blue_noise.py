@@ -7,7 +7,7 @@ rank of a point is its value.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -24,6 +24,27 @@ if TYPE_CHECKING:
     from worker.stages import Report
 
     Numbers = NDArray[np.float64]
+
+
+class Pattern(NamedTuple):
+    """Points that are set on a tile.
+
+    Attributes:
+        filled: Where they are, (side, side).
+        energy: The sum of the bells around them.
+        best: Of each row the column of the tightest cluster and of the largest void, (2, side).
+        most: How tight and how void these are; a row without points is void alike everywhere.
+    """
+
+    filled: NDArray[np.bool_]
+    energy: Numbers
+    best: NDArray[np.int64]
+    most: Numbers
+
+    def copied(self) -> Pattern:
+        """Return the same in arrays of its own."""
+        return Pattern(self.filled.copy(), self.energy.copy(), self.best.copy(), self.most.copy())
+
 
 _DEVIATION = 1.5
 _RADIUS = 7
@@ -44,11 +65,26 @@ def synthesize(
 def ranks(side: int, seed: int) -> NDArray[np.int64]:
     """Return the order in which the points of a tile are set, (side, side)."""
     first = np.argsort(hashes(seed, 0, side * side), kind="stable")
-    found = np.empty((side, side), np.int64)
     distances = np.arange(-_RADIUS, _RADIUS + 1) ** 2
     bell = np.exp(-np.add.outer(distances, distances) / (2 * _DEVIATION**2))
-    _rank(found, first[: int(_SHARE_AT_FIRST * side * side)], bell)
-    return found
+    pattern = Pattern(
+        np.zeros((side, side), np.bool_),
+        np.zeros((side, side)),
+        np.zeros((2, side), np.int64),
+        np.zeros((2, side)),
+    )
+    count = int(_SHARE_AT_FIRST * side * side)
+    picked = np.empty(2 * side * side, np.int64)
+    _place(pattern, first[:count], bell)
+    _pick(pattern, np.arange(2 * side * side) % 2, picked, bell)
+    found = np.empty(side * side, np.int64)
+    emptied = pattern.copied()
+    _pick(emptied, np.zeros(count, np.int64), picked, bell)
+    found[picked[:count]] = np.arange(count)[::-1]
+    rest = side * side - count
+    _pick(pattern, np.ones(rest, np.int64), picked, bell)
+    found[picked[:rest]] = np.arange(count, side * side)
+    return found.reshape(side, side)
 
 
 def warm() -> None:
@@ -57,52 +93,37 @@ def warm() -> None:
 
 
 @kernel
-def _rank(found: NDArray[np.int64], first: NDArray[np.int64], bell: Numbers) -> None:
-    side = len(found)
-    count = len(first)
-    energy = np.zeros((side, side))
-    filled = np.zeros((side, side), np.bool_)
-    # Of each row the column of the tightest cluster and of the largest void, and how much they have
-    best = np.zeros((2, side), np.int64)
-    most = np.full((2, side), -np.inf)
-    for place in first:
-        _change(filled, energy, best, most, bell, place // side, place % side)
-    for row in range(side):
-        _look(filled, energy, best, most, row)
-    for _ in range(side * side):  # it ends when the tightest cluster is the largest void
-        row = int(np.argmax(most[0]))
-        column = best[0, row]
-        _change(filled, energy, best, most, bell, row, column)
-        void = int(np.argmax(most[1]))
-        hole = best[1, void]
-        _change(filled, energy, best, most, bell, void, hole)
-        if void == row and hole == column:
-            break
-    start, start_energy = filled.copy(), energy.copy()
-    for rank in range(count - 1, -1, -1):
-        row = int(np.argmax(most[0]))
-        found[row, best[0, row]] = rank
-        _change(filled, energy, best, most, bell, row, best[0, row])
-    filled[:], energy[:] = start, start_energy
-    for row in range(side):
-        _look(filled, energy, best, most, row)
-    for rank in range(count, side * side):
-        row = int(np.argmax(most[1]))
-        found[row, best[1, row]] = rank
-        _change(filled, energy, best, most, bell, row, best[1, row])
+def _place(pattern: Pattern, places: NDArray[np.int64], bell: Numbers) -> None:
+    """Set the points at places given."""
+    side = len(pattern.filled)
+    for place in places:
+        _change(pattern, bell, place // side, place % side)
 
 
 @kernel
-def _change(
-    filled: NDArray[np.bool_],
-    energy: Numbers,
-    best: NDArray[np.int64],
-    most: Numbers,
-    bell: Numbers,
-    row: int,
-    column: int,
-) -> None:
+def _pick(
+    pattern: Pattern, kinds: NDArray[np.int64], picked: NDArray[np.int64], bell: Numbers
+) -> int:
+    """Take away the tightest cluster (kind 0) or fill the largest void (1), one after the other.
+
+    Returns:
+        How many were picked: it ends early once what was taken away is what would be filled.
+    """
+    side = len(pattern.filled)
+    for turn, kind in enumerate(kinds):
+        row = int(np.argmax(pattern.most[kind]))
+        column = pattern.best[kind, row]
+        picked[turn] = row * side + column
+        _change(pattern, bell, row, column)
+        if turn and kind == 1 and kinds[turn - 1] == 0 and picked[turn] == picked[turn - 1]:
+            return turn + 1
+    return len(kinds)
+
+
+@kernel
+def _change(pattern: Pattern, bell: Numbers, row: int, column: int) -> None:
     """Set a point or take it away, and look again at the rows that feel it."""
+    filled, energy = pattern.filled, pattern.energy
     side = len(filled)
     sign = -1.0 if filled[row, column] else 1.0
     filled[row, column] = not filled[row, column]
@@ -111,21 +132,11 @@ def _change(
         for x in range(-_RADIUS, _RADIUS + 1):
             energy[near, (column + x) % side] += sign * bell[y + _RADIUS, x + _RADIUS]
     for y in range(-_RADIUS, _RADIUS + 1):
-        _look(filled, energy, best, most, (row + y) % side)
-
-
-@kernel
-def _look(
-    filled: NDArray[np.bool_],
-    energy: Numbers,
-    best: NDArray[np.int64],
-    most: Numbers,
-    row: int,
-) -> None:
-    most[0, row] = most[1, row] = -np.inf
-    for column in range(len(filled)):
-        kind = 0 if filled[row, column] else 1
-        amount = energy[row, column] if kind == 0 else -energy[row, column]
-        if amount > most[kind, row]:
-            most[kind, row] = amount
-            best[kind, row] = column
+        near = (row + y) % side
+        pattern.most[:, near] = -np.inf
+        for x in range(side):
+            kind = 0 if filled[near, x] else 1
+            amount = energy[near, x] if kind == 0 else -energy[near, x]
+            if amount > pattern.most[kind, near]:
+                pattern.most[kind, near] = amount
+                pattern.best[kind, near] = x

@@ -2,7 +2,8 @@
 
 import hashlib
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -48,12 +49,20 @@ class Studio:
         return self._arrays[texture["asset"]]
 
     def make(
-        self, spec: TextureSpec, meaning: Meaning, proportion: tuple[int, int] = (1, 1)
+        self,
+        spec: TextureSpec,
+        meaning: Meaning,
+        proportion: tuple[int, int] = (1, 1),
+        rendered: Mapping[str, Image] = MappingProxyType({}),
     ) -> Image:
         """Give a texture's picture: the array behind an image, else as its technique makes it."""
         if isinstance(spec, ImageSpec):
-            return Image(self._arrays[spec.asset], meaning)
-        return synthesize(spec, worn_size(spec, proportion), self.make, meaning)
+            return rendered.get(spec.asset) or Image(self._arrays[spec.asset], meaning)
+
+        def found(spec: ImageSpec, meaning: Meaning) -> Image:
+            return self.make(spec, meaning, (1, 1), rendered)
+
+        return synthesize(spec, worn_size(spec, proportion), found, meaning)
 
     @property
     def maker(self) -> TextureMaker:
