@@ -144,7 +144,13 @@ def render(
         def share(done: float, stage: str) -> None:
             report((number + done) / len(turns), stage)
 
-        return _bands(engine, built, turn, mattes, output, timings, share)
+        start = time.perf_counter()
+        things = [replace(d, world_from_object=turn @ d.world_from_object) for d in built.drawables]
+        turned = replace(built, drawables=tuple(things))
+        seen = with_surroundings(turned, engine.renderer, engine.targets, engine.builder, textures)
+        spent = _milliseconds(time.perf_counter() - start)
+        timings["build_ms"] = round(timings["build_ms"] + spent, 3)
+        return _bands(engine, seen, mattes, output, timings, share)
 
     frames = (frame(number, turn) for number, turn in enumerate(turns))
     if output.turntable is None:
@@ -166,15 +172,13 @@ def _finished(engine: _Engine, bands: Iterator[Band]) -> Iterator[Band]:
 def _bands(
     engine: _Engine,
     built: BuiltScene,
-    turn: Matrix,
     mattes: Mapping[str, Mattes],
     output: RenderOutput,
     timings: dict[str, float],
     report: Report,
 ) -> Iterator[Band]:
     start = time.perf_counter()
-    moved = [replace(d, world_from_object=turn @ d.world_from_object) for d in built.drawables]
-    scene = FlatScene(moved, built.view, built.background, built.sky)
+    scene = FlatScene(built.drawables, built.view, built.background, built.sky)
     eye = built.view.world_from_camera[:3, 3]
     visible = "light_visibility" in output.layers
     lights = lighting(built.lights, eye, built.cookies, scene.corners, visibility=visible)
