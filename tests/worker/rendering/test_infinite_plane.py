@@ -158,7 +158,8 @@ def test_beyond_the_far_plane_the_nearer_one_is_seen(studio: Studio, kind: str) 
     pose = {"eye": [0.0, 1000.0, 0.0], "target": [0.0, 999.0, -1.0]}
     seen = {"type": kind, "pose": pose, "far": 10.0}
     lower = plane({"technique": "unlit", "color": [0.0, 1.0, 0.0]})
-    upper = plane(transform={"translation": [0.0, 0.5, 0.0]})
+    # Its middle is behind the other one's, so that it is drawn later.
+    upper = plane(transform={"translation": [0.0, 0.5, -1e4]})
     for nodes in ([lower, upper], [upper, lower]):
         drawn = studio.layers({"camera": seen, "nodes": nodes}, ["depth"], SIZE)
 
