@@ -28,7 +28,6 @@ from api_schemas.families import SurfaceSpec, TextureSpec
 from api_schemas.geometry import IDENTITY, Affine, Vector3, affine
 from api_schemas.light_cost import cookies_of, seconds_of_shadows, shadow_maps
 from api_schemas.lights import LIGHTS_MAX
-from api_schemas.maps import TABLE_FILTERS
 from api_schemas.output_cost import samples_of, sampling, tiles_of, writing
 from api_schemas.own_size import FUNCTION_SIZE, Size, size_within
 from api_schemas.relief import AnyMap, ParallaxMap
@@ -36,6 +35,7 @@ from api_schemas.requests import RenderRequest, Request
 from api_schemas.scene import Node
 from api_schemas.sky import SKY_SECONDS_PER_SAMPLE, sky_textures, surroundings_cost
 from api_schemas.solid import is_carved, worn_depth
+from api_schemas.stored_cost import at_once, form_of, storing
 from api_schemas.textures.image import ImageSpec
 from api_schemas.walk import BRANCHES, outermost, parts
 
@@ -51,9 +51,6 @@ SECONDS_PER_MAP_SAMPLE = {
     "summed_area": 5e-7,
     "formula": 4e-7,
 }
-BYTES_PER_TABLE_TEXEL: Mapping[str, int] = {"ripmap": 64, "summed_area": 32}
-BYTES_TO_SUM_A_TEXEL = 96
-SECONDS_PER_STORED_TEXEL = {"box": 2e-8, "kaiser": 5e-7, "ripmap": 1e-7, "summed_area": 2e-7}
 SECONDS_PER_PARALLAX_STEP = 2e-8
 SECONDS_TO_COMPILE_A_MAP = 0.12
 SECONDS_TO_COMPILE_A_FORMULA = 0.4
@@ -251,28 +248,22 @@ class _WornTextures:
                 continue
             carved = not isinstance(item, Cookie) and is_carved(item)
             picture = f"{type(item).__name__} {carved} {item.texture.model_dump_json()}"
+            texels = (
+                worn_depth(item.texture) ** 3 if carved else _texels_worn(item.texture, self._facts)
+            )
             if picture not in self._made:
                 self._made.add(picture)
-                if carved:
-                    texels = worn_depth(item.texture) ** 3
-                    making = volume_of(item.texture, texels)
-                else:
-                    making = _textures(item.texture, self._facts, item.texture.surface_size)
+                making = (
+                    volume_of(item.texture, texels)
+                    if carved
+                    else _textures(item.texture, self._facts, item.texture.surface_size)
+                )
                 self.making = max(self.making, making.bytes)
                 cost += Cost(making.seconds)
-            form = item.filter if item.filter in TABLE_FILTERS else getattr(item, "pyramid", "box")
-            if (
-                stored := f"{picture} {form} {item.wrap if form != 'box' else ''}"
-            ) not in self._made:
+            if (stored := f"{picture} {form_of(item)}") not in self._made:
                 self._made.add(stored)
-                texels = _texels_worn(item.texture, self._facts)
-                if carved:
-                    texels = worn_depth(item.texture) ** 3
-                if form == "summed_area":
-                    texels *= 2 ** item.wrap.count("mirror")
-                    self.making = max(self.making, float(texels * BYTES_TO_SUM_A_TEXEL))
-                kept = BYTES_PER_TABLE_TEXEL.get(form, BYTES_PER_KEPT_TEXEL)
-                cost += Cost(texels * SECONDS_PER_STORED_TEXEL[form], float(texels * kept))
+                self.making = max(self.making, at_once(item, texels))
+                cost += storing(item, texels)
             if (program := f"{picture} {item.filter} {item.wrap}") not in self._made:
                 self._made.add(program)
                 cost += Cost(SECONDS_TO_COMPILE_A_MAP)

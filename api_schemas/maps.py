@@ -29,13 +29,18 @@ that is stored with its mirrored copy, and the sums' two halves on top of each o
 
 @dataclass(frozen=True, slots=True)
 class Slot:
-    """Marks a field that takes a texture: whether it is read as colour or as plain data."""
+    """Marks a field that takes a texture: whether it is read as colour or as plain data.
+
+    What is wanted in space, as a volume, its technique makes itself, and not as a picture.
+    """
 
     meaning: Meaning
+    in_space: bool = False
 
 
 COLOUR = Slot("colour")
 DATA = Slot("data")
+DATA_IN_SPACE = Slot("data", in_space=True)
 
 
 class TextureTransform(Schema):

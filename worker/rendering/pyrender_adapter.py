@@ -189,10 +189,8 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         assert self._frame is not None
         self._frame.place(program, primitive)
         self._units.bind(program, primitive.material.shading)
-        if (
-            "sky_from_world" in program.uniforms
-            and (sky := self._frame.scene.sky_of(primitive)) is not None
-        ):
+        sky = self._frame.scene.sky_of(primitive)
+        if sky is not None and "sky_from_world" in program.uniforms:
             self._units.bind_sky(program, sky)
         if self._frame.target.layered:
             program.set("object_id", primitive.thing)

@@ -26,7 +26,7 @@ def draw(studio: Studio, scene: dict[str, Any], **output: Any) -> dict[str, np.n
         yield from studio._render(
             Scene.model_validate_json(json.dumps(scene)),
             RenderOutput(**{"size": list(SIZE), **output}),
-            studio.make,
+            studio.maker,
             lambda mesh: studio.models[mesh.asset],
             lambda fraction, stage: None,
         ).bands
