@@ -33,7 +33,7 @@ from api_schemas.own_size import FUNCTION_SIZE, Size, size_within
 from api_schemas.relief import AnyMap, ParallaxMap
 from api_schemas.requests import RenderRequest, Request
 from api_schemas.scene import Node
-from api_schemas.sky import SKY_SECONDS_PER_SAMPLE, sky_textures
+from api_schemas.sky import SKY_SECONDS_PER_SAMPLE, sky_textures, surroundings_cost
 from api_schemas.solid import is_carved, worn_depth
 from api_schemas.stored_cost import at_once, form_of, storing
 from api_schemas.textures.image import ImageSpec
@@ -177,6 +177,9 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
         cost += Cost(samples * covered * shading)
     shadows = shadow_maps(scene.lights or [], once)
     cost += Cost(request.output.frames * shadows.seconds, shadows.bytes)
+    for node, _, _ in drawn:
+        if node.surroundings is not None:
+            cost += surroundings_cost(node.surroundings, lighting + SKY_SECONDS_PER_SAMPLE, once)
     # Equal things are made once, one after another, and kept: only the largest counts twice.
     return cost + Cost(bytes=textures.making)
 

@@ -3,10 +3,11 @@
 from dataclasses import dataclass
 
 from api_schemas.cost import Cost
-from api_schemas.environment import Environment
+from api_schemas.environment import Environment, Surroundings
 from api_schemas.layouts.cube import CubeSpec
 from api_schemas.layouts.latlong import LatlongSpec
 from api_schemas.textures.convert_layout import ConvertLayoutSpec
+from api_schemas.textures.image import ImageSpec
 from api_schemas.textures.irradiance import IrradianceSpec
 from api_schemas.textures.prefiltered_environment import PrefilteredEnvironmentSpec
 
@@ -37,6 +38,20 @@ class SkyTextures:
                 width, height = texture.surface_size
                 cost += texture.cost(width * height)
         return cost
+
+
+def surroundings_cost(surroundings: Surroundings, shading: float, drawing: float) -> Cost:
+    """Estimate the six pictures of a scene that one thing mirrors, and what is made of them.
+
+    Args:
+        surroundings: How finely.
+        shading: Seconds that a sample takes.
+        drawing: Seconds that all vertices take once.
+    """
+    samples = 6 * surroundings.side**2 * 4
+    image = ImageSpec(technique="image", asset="0" * 64)
+    made = sky_textures(Environment(texture=image)).cost()
+    return made + Cost(samples * shading + 6 * drawing, samples * 20.0)
 
 
 def sky_textures(environment: Environment) -> SkyTextures:

@@ -245,8 +245,7 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         program = self._linked(("sky", sky.kind), lambda: sky_sources(sky.kind))
         program.bind()
         self._units.bind_sky(program, sky)
-        rays = scene.view.rays(self._frame.tile_from_picture)
-        for name, ray in zip(("ray_middle", "ray_across", "ray_up"), rays, strict=True):
+        for name, ray in scene.view.rays(self._frame.tile_from_picture).items():
             program.set(name, ray)
         program.set("tile_size", (self.viewport_width, self.viewport_height))
         self._cover(program)

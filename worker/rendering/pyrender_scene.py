@@ -38,17 +38,19 @@ class View:
     clip_from_camera: Matrix
     orthographic: bool
 
-    def rays(self, tile_from_picture: Matrix) -> tuple[NDArray[np.float64], ...]:
-        """Return where the eye looks: through a tile's middle, and from there to right and top.
+    def rays(self, tile_from_picture: Matrix) -> dict[str, NDArray[np.float64]]:
+        """Return where the eye looks, as lib/sky_background.glsl wants it.
 
-        The directions through other places add up. With parallel views there is but one.
+        Through a tile's middle, and from there to right and top. The directions through other
+        places add up. With parallel views there is but one.
         """
         axes = self.world_from_camera[:3, :3]
         if self.orthographic:
-            return -axes[:, 2], np.zeros(3), np.zeros(3)
+            none = np.zeros(3)
+            return {"ray_middle": -axes[:, 2], "ray_across": none, "ray_up": none}
         clip_from_ray = (tile_from_picture @ self.clip_from_camera)[[0, 1, 3], :3]
-        across, up, middle = (axes @ np.linalg.inv(clip_from_ray)).T
-        return middle, across, up
+        rays = (axes @ np.linalg.inv(clip_from_ray)).T
+        return dict(zip(("ray_across", "ray_up", "ray_middle"), rays, strict=True))
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,0 +1,95 @@
+"""What is told of environments before work starts: their shape, their maps and their cost."""
+
+from typing import Any
+
+import pytest
+
+from api_schemas.asset_use import misuses
+from api_schemas.assets import ASSET_FACTS, AssetFacts
+from api_schemas.estimate import estimate
+from api_schemas.feasibility import obstacles
+from api_schemas.requests import RenderRequest, TextureRequest
+
+ASSET = "0" * 64
+PICTURE = {"technique": "image", "asset": ASSET}
+
+
+def facts(width: int, height: int) -> dict[str, AssetFacts]:
+    known = {
+        "kind": "image",
+        "sha256": ASSET,
+        "bytes": 1000,
+        "media_type": "image/x-exr",
+        "width": width,
+        "height": height,
+        "channels": 3,
+        "format": "openexr",
+        "bits": 16,
+        "has_alpha": False,
+        "float": True,
+    }
+    return {ASSET: ASSET_FACTS.validate_python(known)}
+
+
+def scene(environment: dict[str, Any] | None = None, **node: Any) -> RenderRequest:
+    nodes = [{"mesh": {"type": "sphere"}, **node}]
+    body: dict[str, Any] = {"scene": {"nodes": nodes}, "output": {"size": [64, 64]}}
+    if environment is not None:
+        body["scene"]["environment"] = environment
+    return RenderRequest.model_validate(body)
+
+
+@pytest.mark.parametrize(
+    ("layout", "good", "bad"),
+    [
+        ({"technique": "latlong"}, (512, 256), (512, 512)),
+        ({"technique": "cube"}, (64, 384), (64, 320)),  # five faces
+        ({"technique": "cube", "arrangement": "cross"}, (256, 192), (192, 256)),
+        ({"technique": "angular_probe"}, (100, 100), (100, 99)),
+    ],
+)
+def test_a_picture_has_the_shape_of_its_layout(
+    layout: dict[str, Any], good: tuple[int, int], bad: tuple[int, int]
+) -> None:
+    rendered = scene({"texture": PICTURE, "layout": layout})
+    converted = TextureRequest.model_validate(
+        {
+            "texture": {"technique": "convert_layout", "environment": PICTURE, "layout": layout},
+            "output": {"size": [64, 32]},
+        }
+    )
+
+    for request, pointer in (
+        (rendered, "/scene/environment/texture/asset"),
+        (converted, "/texture/environment/asset"),
+    ):
+        assert not list(misuses(request, facts(*good)))
+        found = list(misuses(request, facts(*bad)))
+        assert [(o.code, o.pointer) for o in found] == [("layout_mismatch", pointer)]
+        assert f"{bad[0]} x {bad[1]}" in found[0].message
+
+
+def test_an_environment_takes_the_room_of_three_maps() -> None:
+    # A surface has nowhere near so many parameters but in a map of surfaces: the count is by part.
+    assert not obstacles(scene({"texture": PICTURE}))
+
+
+def test_environments_and_surroundings_cost() -> None:
+    plain = estimate(scene(), facts(256, 128))
+    lit = estimate(scene({"texture": PICTURE}), facts(256, 128))
+    mirrored = estimate(scene({"texture": PICTURE}, surroundings={"side": 512}), facts(256, 128))
+
+    assert lit.seconds > plain.seconds + 1
+    assert mirrored.seconds > lit.seconds + 1
+    assert mirrored.bytes > lit.bytes > plain.bytes
+
+
+def test_a_huge_picture_in_another_layout_is_weighed() -> None:
+    body = {
+        "texture": {"technique": "prefiltered_environment", "environment": PICTURE},
+        "output": {"size": [16384, 8192]},
+    }
+
+    cost = estimate(TextureRequest.model_validate(body), facts(512, 256))
+
+    assert cost.seconds > 60
