@@ -7,6 +7,7 @@ from api_schemas.assets import AssetFacts, ImageFacts, MaterialLibraryFacts, Mod
 from api_schemas.base import Schema
 from api_schemas.camera import ModelCamera
 from api_schemas.families import LayoutSpec
+from api_schemas.maps import TABLE_FILTERS, TABLE_SIDE_MAX, Map
 from api_schemas.model_mesh import ModelMesh
 from api_schemas.obstacle import Obstacle
 from api_schemas.requests import RenderRequest, Request
@@ -42,6 +43,8 @@ def misuses(request: Request, facts: Mapping[str, AssetFacts]) -> Iterator[Obsta
             yield from _kind(facts.get(part.asset), PICTURES, f"{pointer}/asset")
         elif isinstance(part, ModelMesh):
             yield from _model(part, facts, pointer)
+        elif isinstance(part, Map):
+            yield from _table(part, facts, pointer)
         yield from _shape(part, facts, pointer)
     if isinstance(request, RenderRequest):
         yield from _camera(request, facts)
@@ -83,6 +86,21 @@ def _kind(found: AssetFacts | None, wanted: Sequence[str], pointer: str) -> Iter
         nouns = " or ".join(NOUNS[kind] for kind in wanted)
         message = f"{nouns} is wanted here; the asset is {NOUNS[found.kind]}"
         yield Obstacle("asset_kind_mismatch", pointer, message)
+
+
+def _table(mapped: Map, facts: Mapping[str, AssetFacts], pointer: str) -> Iterator[Obstacle]:
+    texture = getattr(mapped, "texture", None)
+    found = facts.get(texture.asset) if isinstance(texture, ImageSpec) else None
+    if mapped.filter not in TABLE_FILTERS or not isinstance(found, ImageFacts):
+        return
+    doubled = mapped.filter == "summed_area" and mapped.wrap[1] == "mirror"
+    tallest = TABLE_SIDE_MAX // 2 if doubled else TABLE_SIDE_MAX
+    if found.width > TABLE_SIDE_MAX or found.height > tallest:
+        message = (
+            f"the picture has {found.width} x {found.height} texels; a table for {mapped.filter} "
+            f"holds at most {TABLE_SIDE_MAX} x {tallest}"
+        )
+        yield Obstacle("asset_too_large", f"{pointer}/texture/asset", message)
 
 
 def _model(mesh: ModelMesh, facts: Mapping[str, AssetFacts], pointer: str) -> Iterator[Obstacle]:

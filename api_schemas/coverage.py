@@ -62,6 +62,8 @@ def stand_in(
         if placed is None:
             return None
         radius = _radius(reach, placed)
+        if math.isinf(radius):
+            continue  # what has no end is not framed
         lows.append([value - radius for value in placed.origin])
         highs.append([value + radius for value in placed.origin])
     size = length(triple(camera.direction))

@@ -11,7 +11,7 @@ from api_schemas.cost import Cost
 from api_schemas.eigenvalues import eigenvalues
 from api_schemas.families import Meaning, Refusal, TextureSpec
 from api_schemas.maps import DATA
-from api_schemas.parameters import ParameterMap, ends
+from api_schemas.parameters import MappedSigned, ParameterMap, ends
 
 # Only names of the language are quoted: who inherits a field knows no others.
 if TYPE_CHECKING:
@@ -63,8 +63,8 @@ class CellsSpec(TextureSpec):
         cells = self.size[0] * self.size[1]
         chemicals = len(self.layers) or 4
         seconds = cells * (self.steps + 10) * self.seconds_per_cell + self.steps * 4e-5
-        numbers = 2 * chemicals + len(self.parameters) + 2
-        return Cost(seconds + pixels * chemicals * 2e-8, cells * numbers * 10.0 + pixels * 16.0)
+        held = 48.0 * chemicals + 8.0 * len(self.parameters) + 64.0
+        return Cost(seconds + pixels * chemicals * 2e-8, cells * held + pixels * 16.0)
 
 
 class DishSpec(CellsSpec):
@@ -95,6 +95,23 @@ class ReactionSpec(DishSpec):
     disturbance: Annotated[float, Field(ge=0, le=1)] = Field(
         default=0.01,
         description="By what share the start is off from rest, at random: what patterns grow from.",
+    )
+    across: Annotated[float, Field(ge=0, le=1)] = Field(
+        default=1.0,
+        description="How fast chemicals spread across the direction, as a share of how fast along "
+        "it: below 1 spots grow long and stripes fall into line.",
+    )
+    direction: MappedSigned = Field(
+        default=0.0,
+        description="The direction in radians, counter-clockwise from u, where across is not 1.",
+    )
+    guide: Annotated["Texture | None", DATA] = Field(
+        default=None,
+        description="A texture along whose edges they spread: `direction` then counts from them.",
+    )
+    guide_radius: Annotated[float, Field(ge=0, le=1)] = Field(
+        default=0.02,
+        description="How far around a point the edges of the guide are looked at, in tiles.",
     )
     range: Literal["stretched", "raw"] = Field(
         default="stretched",

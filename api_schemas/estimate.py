@@ -28,6 +28,7 @@ from api_schemas.families import SurfaceSpec, TextureSpec
 from api_schemas.geometry import IDENTITY, Affine, Vector3, affine
 from api_schemas.light_cost import cookies_of, seconds_of_shadows, shadow_maps
 from api_schemas.lights import LIGHTS_MAX
+from api_schemas.maps import TABLE_FILTERS
 from api_schemas.output_cost import samples_of, sampling, tiles_of, writing
 from api_schemas.own_size import FUNCTION_SIZE, Size, size_within
 from api_schemas.relief import AnyMap, ParallaxMap
@@ -45,8 +46,14 @@ SECONDS_PER_MAP_SAMPLE = {
     "bilinear": 1e-8,
     "trilinear": 2e-8,
     "anisotropic": 1.5e-7,
-    "formula": 3e-7,
+    "ewa": 6e-7,
+    "ripmap": 1e-7,
+    "summed_area": 5e-7,
+    "formula": 4e-7,
 }
+BYTES_PER_TABLE_TEXEL: Mapping[str, int] = {"ripmap": 64, "summed_area": 32}
+BYTES_TO_SUM_A_TEXEL = 96
+SECONDS_PER_STORED_TEXEL = {"box": 2e-8, "kaiser": 5e-7, "ripmap": 1e-7, "summed_area": 2e-7}
 SECONDS_PER_PARALLAX_STEP = 2e-8
 SECONDS_TO_COMPILE_A_MAP = 0.12
 SECONDS_TO_COMPILE_A_FORMULA = 0.4
@@ -247,10 +254,22 @@ class _WornTextures:
                     texels = worn_depth(item.texture) ** 3
                     making = volume_of(item.texture, texels)
                 else:
-                    texels = _texels_worn(item.texture, self._facts)
                     making = _textures(item.texture, self._facts, item.texture.surface_size)
                 self.making = max(self.making, making.bytes)
-                cost += Cost(making.seconds, texels * BYTES_PER_KEPT_TEXEL)
+                cost += Cost(making.seconds)
+            form = item.filter if item.filter in TABLE_FILTERS else getattr(item, "pyramid", "box")
+            if (
+                stored := f"{picture} {form} {item.wrap if form != 'box' else ''}"
+            ) not in self._made:
+                self._made.add(stored)
+                texels = _texels_worn(item.texture, self._facts)
+                if carved:
+                    texels = worn_depth(item.texture) ** 3
+                if form == "summed_area":
+                    texels *= 2 ** item.wrap.count("mirror")
+                    self.making = max(self.making, float(texels * BYTES_TO_SUM_A_TEXEL))
+                kept = BYTES_PER_TABLE_TEXEL.get(form, BYTES_PER_KEPT_TEXEL)
+                cost += Cost(texels * SECONDS_PER_STORED_TEXEL[form], float(texels * kept))
             if (program := f"{picture} {item.filter} {item.wrap}") not in self._made:
                 self._made.add(program)
                 cost += Cost(SECONDS_TO_COMPILE_A_MAP)

@@ -102,6 +102,10 @@ class PresetSpec(TextureSpec):
         """Return the composition, of solid textures."""
         raise NotImplementedError
 
+    def has_formula(self) -> bool:
+        """Whether all that it is composed of do."""
+        return all(part.has_formula() for part in textures_in(self.composed()))
+
     def cost(self, pixels: int) -> Cost:
         """Estimate all that it is composed of."""
         return sum((part.cost(pixels) for part in textures_in(self.composed())), Cost())

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Final, Literal, get_args
 
 from pydantic import Field
 
@@ -17,18 +17,30 @@ MAPS_MAX = 24
 """Maps on one surface: with eight to spare, what OpenGL lets a shader read."""
 
 PictureFilter = Literal["nearest", "bilinear", "trilinear", "anisotropic"]
-Filter = Literal[PictureFilter, "formula"]
+TableFilter = Literal["ripmap", "summed_area"]
+Filter = Literal[PictureFilter, "ewa", TableFilter, "formula"]
+Pyramid = Literal["box", "kaiser"]
+TABLE_FILTERS: Final[tuple[TableFilter, ...]] = get_args(TableFilter)
+"""Filters that read a table of their own in the place of smaller levels."""
+TABLE_SIDE_MAX: Final = 8180
+"""Texels along a side of a picture whose table still fits into OpenGL's largest texture; of an axis
+that is stored with its mirrored copy, and the sums' two halves on top of each other, half of it."""
 
 
 @dataclass(frozen=True, slots=True)
 class Slot:
-    """Marks a field that takes a texture: whether it is read as colour or as plain data."""
+    """Marks a field that takes a texture: whether it is read as colour or as plain data.
+
+    What is wanted in space, as a volume, its technique makes itself, and not as a picture.
+    """
 
     meaning: Meaning
+    in_space: bool = False
 
 
 COLOUR = Slot("colour")
 DATA = Slot("data")
+DATA_IN_SPACE = Slot("data", in_space=True)
 
 
 class TextureTransform(Schema):
@@ -72,9 +84,19 @@ class Map(Schema):
     )
     filter: Filter = Field(
         default="anisotropic",
-        description="How texels become a pixel: hard texels, smooth when near, smooth when far, "
-        "or sharp at grazing angles too. formula makes no picture: a texture that has a formula is "
-        "worked out at every pixel, repeated in all directions, with detail without end.",
+        description="How texels become a pixel: hard texels (nearest), smooth when near "
+        "(bilinear), smooth when far (trilinear), sharp at grazing angles too (anisotropic); an "
+        "elliptical Gaussian, even and slow (ewa); or the mean of the upright rectangle round the "
+        "pixel, from pictures shrunk along u and v each on their own (ripmap), or from sums, "
+        "exactly (summed_area). A picture for the last two has at most 8180 texels a side, 4090 "
+        "along a v that summed_area mirrors. formula makes no picture: a texture that has a "
+        "formula is worked out at every pixel, repeated in all directions, with detail without "
+        "end.",
+    )
+    pyramid: Pyramid = Field(
+        default="box",
+        description="How smaller levels are made for trilinear, anisotropic and ewa: plain means, "
+        "or a Kaiser-windowed sinc, which is sharper in the distance and overshoots a little.",
     )
 
 

@@ -146,7 +146,33 @@ class Disk(Schema):
         return self.radius
 
 
-Primitive = Cylinder | Sphere | Plane | Box | Torus | Disk
+class InfinitePlane(Schema):
+    """A ground to the horizon, or a wall without end: its texture is repeated for ever.
+
+    The camera's far plane does not cut it. A camera that frames what there is frames the other
+    things, or a few tiles round the origin.
+    """
+
+    type: Literal["infinite_plane"]
+    tile: Annotated[list[Length], Field(min_length=2, max_length=2)] = Field(
+        default=[1.0, 1.0],
+        description="Extent of one texture along its u and v; one has its lower left corner in the "
+        "origin.",
+    )
+    facing: Facing = Field(default="+y", description="Standing like a wall, or lying like a floor.")
+
+    @property
+    def triangles(self) -> int:
+        """How many triangles the mesh has."""
+        return 1
+
+    @property
+    def reach(self) -> float:
+        """Radius of a ball round the origin that holds the mesh: there is none."""
+        return math.inf
+
+
+Primitive = Cylinder | Sphere | Plane | Box | Torus | Disk | InfinitePlane
 """A shape made from numbers alone."""
 
 Mesh = Annotated[Primitive | ModelMesh, Field(discriminator="type")]

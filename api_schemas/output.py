@@ -17,6 +17,7 @@ Format = Literal["png", "exr"]
 MediaType = Literal["image/png", "image/x-exr"]
 PngBits = Literal[8, 16]
 ExrType = Literal["half", "float"]
+PixelFilter = Literal["box", "tent", "gaussian"]
 ToneCurve = Literal["none", "reinhard", "aces"]
 
 Layer = Literal[
@@ -30,6 +31,9 @@ Layer = Literal[
     "object_id",
     "material_id",
     "coverage",
+    "footprint",
+    "texel_density",
+    "shading_difference",
     "light_visibility",
     "crypto_object",
     "crypto_material",
@@ -129,6 +133,12 @@ class RenderOutput(Output):
     supersampling: Annotated[int, Field(ge=1, le=8), WHOLE] = Field(
         default=2, description="Samples per pixel along each side: more are smoother and slower."
     )
+    pixel_filter: PixelFilter = Field(
+        default="box",
+        description="How the samples round a pixel become its light: the mean of its own, a tent "
+        "that falls to the middles of its neighbours, or a Gaussian three pixels wide. The latter "
+        "two are smoother and cost samples beyond the edges of the picture.",
+    )
     layers: Annotated[list[Layer], Field(max_length=16), UNIQUE_ITEMS] = Field(
         default=[],
         json_schema_extra={"uniqueItems": True},
@@ -142,12 +152,20 @@ class RenderOutput(Output):
         "cover; light_visibility, the share of the lamps' light that shadows leave, 0 where a "
         "surface faces away; crypto_object and crypto_material, up to six things of a "
         "pixel with the share of each, as Cryptomatte has them, called by the nodes' names (else "
-        "box 3, sphere 4) and material 1, material 2. All but albedo, coverage and shares belong "
-        "to the nearest sample, are never averaged and 0 where nothing is; what is blended leaves "
-        "them to what is behind it. A PNG shows one layer instead of the colour: albedo like a "
-        "picture, directions as n / 2 + 1/2, depth as 1 / (1 + Z), uv as red and green, an id as "
-        "its own code, those of Cryptomatte as a colour each, position and coverage as they are, "
-        "cut off outside of 0..1.",
+        "box 3, sphere 4) and material 1, material 2; footprint, how far uv go from this pixel to "
+        "the next one, X and Y to the right, Z and W upwards: of waves, a pixel holds those of "
+        "fewer than 1 / (2 footprint) cycles per tile; texel_density, how many texels of the "
+        "surface's main picture fit along a pixel, 0 without one: below 1 the picture is "
+        "magnified, from 2 on it is as sharp as can be; shading_difference, the light of the "
+        "picture, whose samples are shaded and then averaged, less that of maps averaged over the "
+        "pixel and then shaded once: what a filter cannot know of highlights and bumps, and edges. "
+        "All but this one, albedo, coverage and shares belong to the nearest sample, are never "
+        "averaged and 0 where nothing is; what is blended leaves them to what is behind it. A PNG "
+        "shows one layer instead of the colour: albedo like a picture, directions as n / 2 + 1/2, "
+        "depth as 1 / (1 + Z), uv as red and green, an id as its own code, those of Cryptomatte as "
+        "a colour each, footprint as 1 + log2(x) / 16 of its lengths to the right and upwards, "
+        "texel_density as x / (1 + x), shading_difference as d / 2 + 1/2, position and coverage as "
+        "they are, cut off outside of 0..1.",
     )
     turntable: Turntable | None = Field(
         default=None, description="Several frames of the scene, which turns; size is that of one."

@@ -23,6 +23,9 @@ LAYER_CHANNELS: Mapping[Layer, int] = {
     "object_id": 1,
     "material_id": 1,
     "coverage": 1,
+    "footprint": 4,
+    "texel_density": 1,
+    "shading_difference": 3,
     "light_visibility": 1,
     "crypto_object": 15,
     "crypto_material": 15,
@@ -33,13 +36,14 @@ _SECONDS_PER_PNG_PIXEL = {8: 6e-8, 16: 1.4e-7}
 _SECONDS_PER_EXR_PIXEL = {"half": 7e-8, "float": 1.2e-7}
 _SECONDS_PER_LAYER_NUMBER = 5e-8
 _SECONDS_PER_SAMPLE = 4e-8
+_SECONDS_PER_FILTERED_SAMPLE = 9e-8
 _SECONDS_PER_LAYERED_SAMPLE = 1.4e-7
 _SECONDS_PER_LAYERED_PIXEL = 2e-7
 _BYTES_PER_PIXEL = 48
 _MORE_FOR_MIPMAPS = 2
 _BYTES_PER_LAYER_NUMBER = 12
 _BYTES_PER_SAMPLE = 52
-_BYTES_PER_LAYERED_SAMPLE = 240
+_BYTES_PER_LAYERED_SAMPLE = 272
 
 
 def writing(output: Output) -> Cost:
@@ -76,18 +80,22 @@ def sampling(output: RenderOutput) -> Cost:
     """Return the cost of a picture's samples where nothing is, and of making pixels of them."""
     samples = samples_of(output)
     held = min(samples // output.frames, _samples_per_tile(output))
+    filtering = 0.0 if output.pixel_filter == "box" else samples * _SECONDS_PER_FILTERED_SAMPLE
     if not output.layers:
-        return Cost(samples * _SECONDS_PER_SAMPLE, float(held * _BYTES_PER_SAMPLE))
+        return Cost(samples * _SECONDS_PER_SAMPLE + filtering, float(held * _BYTES_PER_SAMPLE))
     pixels = output.size[0] * output.size[1] * output.frames
     return Cost(
-        samples * _SECONDS_PER_LAYERED_SAMPLE + pixels * _SECONDS_PER_LAYERED_PIXEL,
+        samples * _SECONDS_PER_LAYERED_SAMPLE + pixels * _SECONDS_PER_LAYERED_PIXEL + 2 * filtering,
         float(held * _BYTES_PER_LAYERED_SAMPLE),
     )
 
 
 def samples_of(output: RenderOutput) -> int:
-    """Return how many samples are drawn, of all frames."""
-    return output.frames * output.size[0] * output.size[1] * output.supersampling**2
+    """Return how many samples are drawn, of all frames and beyond the picture's edges too."""
+    more = 0 if output.pixel_filter == "box" else 2
+    once = output.size[0] * output.size[1] * ("shading_difference" in output.layers)
+    seen = (output.size[0] + more) * (output.size[1] + more) * output.supersampling**2
+    return output.frames * (once + seen)
 
 
 def tiles_of(output: RenderOutput) -> int:

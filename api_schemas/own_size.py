@@ -25,7 +25,8 @@ class MadeAt:
     """Marks a field with a texture that is not made at its parent's size.
 
     Attributes:
-        size: `own`: that of its own pixels, unless the spec's `exemplar_size` says another.
+        size: `own`: that of its own pixels; of the field `exemplar` the spec's `exemplar_size`
+            may say another.
             `exemplar`: that of the field `exemplar`. `result`: the spec's own `size`.
     """
 
@@ -68,11 +69,11 @@ def size_within(
         return texture.inner_size(size)
     if rule == "result":
         return own_size(texture, measure)
-    if wanted := getattr(texture, "exemplar_size", None):
+    source = name if rule == "own" else "exemplar"
+    if source == "exemplar" and (wanted := getattr(texture, "exemplar_size", None)):
         width, height = wanted
         return (width, height)
-    found = getattr(texture, name if rule == "own" else "exemplar")
-    return own_size(found, measure)
+    return own_size(getattr(texture, source), measure)
 
 
 def _sizes(texture: TextureSpec, measure: Callable[[ImageSpec], Size]) -> Iterator[Size]:

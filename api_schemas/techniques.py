@@ -40,6 +40,9 @@ class Technique(Schema):
         description="For textures: whether it has a size of its own in pixels, or is a function "
         "on the unit tile."
     )
+    solid: bool | None = Field(
+        description="For textures: whether it fills space, too, if the textures in it do."
+    )
     parameters: dict[str, JsonValue] = Field(
         description="JSON Schema of its parameters, complete with $defs."
     )

@@ -65,8 +65,14 @@ def deepest(value: object, kinds: tuple[type[Schema], ...], pointer: str = "") -
 
 def meaning_of(field: FieldInfo, above: Meaning) -> Meaning:
     """Return how a texture in a field is read: as its slot says, else as what holds it."""
-    slot = next((item for item in field.metadata if isinstance(item, Slot)), None)
+    slot = _slot(field)
     return slot.meaning if slot else above
+
+
+def is_in_space(field: FieldInfo) -> bool:
+    """Whether a texture in a field is made as a volume by the technique that has the field."""
+    slot = _slot(field)
+    return slot is not None and slot.in_space
 
 
 def rewrite(
@@ -87,6 +93,10 @@ def rewrite(
     if not isinstance(changed, type(model)):
         raise TypeError(f"{type(changed).__name__} cannot stand where {type(model).__name__} was")
     return changed
+
+
+def _slot(field: FieldInfo) -> Slot | None:
+    return next((item for item in field.metadata if isinstance(item, Slot)), None)
 
 
 def _rewrite_value(

@@ -60,6 +60,7 @@ def _technique(family: str, name: str, spec: type[TechniqueSpec]) -> Technique:
         equation=spec.equation,
         revision=spec.revision,
         sized=spec.sized if issubclass(spec, TextureSpec) else None,
+        solid=spec.solid if issubclass(spec, TextureSpec) else None,
         parameters=_parameters(spec),
         examples=[
             body

@@ -75,7 +75,8 @@ def test_every_choice_of_the_language_is_named() -> None:
     for name in (*get_args(Wrap), *get_args(Filter)):
         assert f"`{name}`" in section("What it can do"), name
     for mesh in get_args(meshes.Primitive):
-        assert mesh.__name__.lower() in section("What it can do")
+        (name,) = get_args(mesh.model_fields["type"].annotation)
+        assert name.replace("_", " ") in section("What it can do")
 
 
 def test_every_kind_of_upload_is_named() -> None:

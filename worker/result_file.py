@@ -6,12 +6,13 @@ from pathlib import Path
 from types import MappingProxyType
 
 import numpy as np
+from numpy.typing import NDArray
 
 from api_schemas.output import MEDIA_TYPES, Output, PngBits, TextureOutput
 from api_schemas.version import VERSION
 from worker.images import image_io
 from worker.images.image import Image
-from worker.rendering.packing import PICTURE
+from worker.rendering.packing import PICTURE, SHADING_DIFFERENCE
 
 _EXR_NAMES = {
     PICTURE: "",
@@ -21,6 +22,7 @@ _EXR_NAMES = {
     "geometric_normal": "Ng",
     "tangent": "T",
 }
+_SHORTEST_FOOTPRINT = np.float32(2**-16)
 
 
 def write(
@@ -79,17 +81,31 @@ def write(
 def _shown(band: Mapping[str, Image], bits: PngBits) -> Image:
     """Return what a PNG shows: the picture, or the layer beside it in numbers from 0 to 1.
 
-    Directions are n / 2 + 1/2. Depth is 1 / (1 + Z): bright near the eye, black where nothing is.
-    An id is its own code. uv are red and green. What else lies outside of 0..1 is cut off.
+    Directions and differences are x / 2 + 1/2. Depth is 1 / (1 + Z): bright near the eye, black
+    where nothing is. An id is its own code. uv are red and green. Footprints are the logarithms of
+    their lengths: 16 octaves from black. Densities are x / (1 + x). What else lies outside
+    of 0..1 is cut off.
     """
     name, image = list(band.items())[-1]
     pixels = image.pixels
+    if name == SHADING_DIFFERENCE:
+        return Image(pixels * np.float32(0.5) + np.float32(0.5), "data")
     if name in ("normal", "geometric_normal", "tangent"):
         pixels = pixels * np.float32(0.5) + np.float32(0.5)
     elif name == "depth":
         pixels = np.reciprocal(np.float32(1) + pixels)
     elif name in ("object_id", "material_id"):
         pixels = pixels / np.float32(2**bits - 1)
+    elif name == "texel_density":
+        pixels = pixels / (np.float32(1) + pixels)
+    elif name == "footprint":
+        lengths = np.maximum(np.hypot(pixels[..., 0::2], pixels[..., 1::2]), _SHORTEST_FOOTPRINT)
+        pixels = _two_colours((1 + np.log2(lengths) / 16).astype(np.float32))
     elif name == "uv":
-        pixels = np.concatenate([pixels, np.zeros_like(pixels[..., :1])], axis=2)
+        pixels = _two_colours(pixels)
     return Image(pixels, image.meaning)
+
+
+def _two_colours(pixels: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Let two channels be red and green."""
+    return np.concatenate([pixels, np.zeros_like(pixels[..., :1])], axis=2)

@@ -43,6 +43,10 @@ class LevelsSpec(TextureSpec):
         "range.",
     )
 
+    def has_formula(self) -> bool:
+        """Always."""
+        return True
+
     def cost(self, pixels: int) -> Cost:
         """A power for each channel, where there is a gamma."""
         return Cost(seconds=pixels * (1e-7 if self.gamma == 1 else 4e-7), bytes=pixels * 64.0)

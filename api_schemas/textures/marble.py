@@ -48,6 +48,10 @@ class MarbleSpec(TextureSpec):
         default="unit", description="Values within 0..1, or within -1..1."
     )
 
+    def has_formula(self) -> bool:
+        """Always."""
+        return True
+
     def cost(self, pixels: int) -> Cost:
         """A sine for every pixel."""
         return Cost(seconds=pixels * 4e-8, bytes=pixels * 16.0)

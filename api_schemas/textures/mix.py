@@ -41,6 +41,10 @@ class MixSpec(TextureSpec):
         "within 0..1, says it for each point.",
     )
 
+    def has_formula(self) -> bool:
+        """Always."""
+        return True
+
     def cost(self, pixels: int) -> Cost:
         """Both pictures are read once."""
         return Cost(seconds=pixels * 1e-7, bytes=pixels * 64.0)

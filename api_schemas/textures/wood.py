@@ -53,6 +53,10 @@ class WoodSpec(TextureSpec):
         default=0.5, description="The value of the noise that leaves a ring in place."
     )
 
+    def has_formula(self) -> bool:
+        """Always."""
+        return True
+
     def cost(self, pixels: int) -> Cost:
         """A root for every pixel."""
         return Cost(seconds=pixels * 4e-8, bytes=pixels * 16.0)

@@ -21,6 +21,9 @@ CHANNELS = {
     "object_id": ["object_id"],
     "material_id": ["material_id"],
     "coverage": ["coverage"],
+    "footprint": [f"footprint.{letter}" for letter in "XYZW"],
+    "texel_density": ["texel_density"],
+    "shading_difference": [f"shading_difference.{letter}" for letter in "RGB"],
     "light_visibility": ["light_visibility"],
     "crypto_object": [f"CryptoObject.{letter}" for letter in "RGB"],
     "crypto_material": [f"CryptoMaterial.{letter}" for letter in "RGB"],
@@ -42,6 +45,6 @@ def test_a_layer_looks_as_it_did(
     layer: str, channels: dict[str, Any], compare_with_golden: Any
 ) -> None:
     pixels = np.stack([channels[name] for name in CHANNELS[layer]], axis=2)
-    meaning = "colour" if layer == "albedo" else "data"
+    meaning = "colour" if layer in ("albedo", "shading_difference") else "data"
 
     compare_with_golden(Image(pixels, meaning), f"layers/{layer}")  # type: ignore[arg-type]

@@ -6,7 +6,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-MeshKind = Literal["triangles", "lines", "points"]
+MeshKind = Literal["triangles", "lines", "points", "plane"]
 UV_SETS_MAX = 4
 """Sets of texture coordinates that are drawn; a reader ignores more."""
 
@@ -27,7 +27,8 @@ class Mesh:
         tangents: float64 (n, 4), where u grows, unit length; the last is the sign of the bitangent,
             sign * cross(normal, tangent). None: computed where a normal map asks for them.
         colors: float64 (n, 4), linear, straight alpha. None: white.
-        kind: What a row of `triangles` is.
+        kind: What a row of `triangles` is; the one triangle of a plane, whose uv are (-1, -1),
+            (3, -1), (-1, 3), stands for all of it, without an end.
     """
 
     positions: NDArray[np.float64]

@@ -6,6 +6,7 @@ from api_schemas import meshes
 from worker.geometry.box import box
 from worker.geometry.cylinder import cylinder
 from worker.geometry.disk import disk
+from worker.geometry.infinite_plane import infinite_plane
 from worker.geometry.mesh import Mesh
 from worker.geometry.plane import plane
 from worker.geometry.sphere import sphere
@@ -25,6 +26,8 @@ def build(spec: meshes.Primitive) -> Mesh:
             return disk(spec.radius, spec.segments, spec.facing)
         case meshes.Box():
             return box(spec.width, spec.height, spec.depth)
+        case meshes.InfinitePlane():
+            return infinite_plane(spec.tile, spec.facing)
         case meshes.Torus():
             return torus(spec.radius, spec.tube_radius, spec.segments, spec.rings)
     assert_never(spec)

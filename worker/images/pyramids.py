@@ -70,11 +70,12 @@ def mip_chain(pixels: NDArray[np.float32]) -> list[NDArray[np.float32]]:
     """
     levels = [pixels]
     while max(levels[-1].shape[:2]) > 1:
-        levels.append(_halve_width(_halve_height(levels[-1])))
+        levels.append(halve_width(halve_height(levels[-1])))
     return levels
 
 
-def _halve_height(pixels: NDArray[np.float32]) -> NDArray[np.float32]:
+def halve_height(pixels: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Give half as many rows, rounded down; one stays one."""
     height = pixels.shape[0]
     if height == 1:
         return pixels
@@ -87,7 +88,8 @@ def _halve_height(pixels: NDArray[np.float32]) -> NDArray[np.float32]:
     return halved
 
 
-def _halve_width(pixels: NDArray[np.float32]) -> NDArray[np.float32]:
+def halve_width(pixels: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Give half as many columns, rounded down; one stays one."""
     width = pixels.shape[1]
     if width == 1:
         return pixels

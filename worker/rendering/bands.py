@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from worker.images.image import Image
 from worker.rendering.cryptomatte import Mattes
-from worker.rendering.packing import PICTURE, PLACES, SAMPLED
+from worker.rendering.packing import PICTURE, PLACES, SAMPLED, SHADING_DIFFERENCE
 from worker.rendering.targets import Target
-from worker.rendering.tiles import Tile
+from worker.rendering.tiles import Tile, widened
 
 Band: TypeAlias = Mapping[str, Image]
 """Some rows of the picture, as PICTURE, and of each layer that was asked for, by its name."""
@@ -58,15 +58,23 @@ class OpenBand:
                 if place.attachment == attachment:
                     pixels[:, columns] = numbers[..., place.start : place.end]
 
-    def read_samples(self, samples: Target, tile: Tile, supersampling: int) -> None:
-        """Copy what each of a tile's samples shows from OpenGL."""
+    def read_samples(self, samples: Target, tile: Tile, supersampling: int, apron: int) -> None:
+        """Copy what each of a tile's samples shows from OpenGL, but for the apron of pixels."""
         columns = slice(tile.left, tile.left + tile.width)
-        size = (tile.width * supersampling, tile.height * supersampling)
+        seen = widened(tile, apron)
+        inner = slice(apron * supersampling, -apron * supersampling or None)
         for name, numbers in self.numbers.items():
             place = SAMPLED[name]
-            drawn = samples.read(place.attachment, *size)[..., place.start]
+            size = (seen.width * supersampling, seen.height * supersampling)
+            drawn = samples.read(place.attachment, *size)[inner, inner, place.start]
             blocks = drawn.reshape(tile.height, supersampling, tile.width, supersampling)
             numbers[:, columns] = blocks.transpose(0, 2, 1, 3).reshape(tile.height, tile.width, -1)
+
+    def subtract(self, samples: Target, tile: Tile) -> None:
+        """Take a picture of one sample for each pixel away from the difference."""
+        columns = slice(tile.left, tile.left + tile.width)
+        picture = samples.read(0, tile.width, tile.height)
+        self.pixels[SHADING_DIFFERENCE][:, columns] -= picture[..., :3]
 
     def images(self) -> Band:
         """Return the finished rows."""

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from api_schemas.cookies import Cookie, Gobo
 from api_schemas.lights import AmbientLight, DirectionalLight, Light, PointLight, SpotLight
 from worker.geometry.transforms import Matrix
+from worker.images.stored_form import StoredForm
 from worker.rendering.light_views import light_axes
 from worker.rendering.lookups import Picture, TextureSource, texture_from_uv
 from worker.rendering.samplers import Sampling
@@ -78,7 +79,9 @@ def _picture(cookie: Cookie, texture_of: TextureSource) -> Picture:
     u, v = cookie.wrap
     sampling = Sampling.of((u, v), cookie.filter)
     border = tuple(cookie.border_color) if "border" in (u, v) else (0.0,) * 4
-    return Picture(texture_of(cookie.texture, "colour", levels=sampling.levels), sampling, border)
+    form = StoredForm.of(cookie.filter, "box", (u, v), border)
+    texture = texture_of(cookie.texture, "colour", levels=sampling.levels, form=form)
+    return Picture(texture, sampling, border)
 
 
 def _projection(light: DirectionalLight | SpotLight, cookie: Cookie, sampling: Sampling) -> Matrix:

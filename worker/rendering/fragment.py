@@ -7,6 +7,7 @@ from worker.rendering.chunks import Source, chunk, join
 from worker.rendering.light_code import light_chunks, light_lines
 from worker.rendering.lookup_fragment import (
     in_space,
+    looking,
     lookup_chunks,
     lookup_declarations,
     place_of,
@@ -23,6 +24,8 @@ from worker.rendering.shading_layout import (
 )
 
 VERSION = "#version 410 core"
+_MAIN = ("base_color", "diffuse_color", "color")
+"""Parameters whose map is the surface's picture, rather than any other one."""
 _SELECTED = ["uniform int selected;", "uniform float selected_last;"]
 _BY_OPACITY = {
     "mask": "    if (opacity < alpha_cutoff) discard;",
@@ -31,10 +34,17 @@ _BY_OPACITY = {
 
 
 def surface_sources(
-    layout: ShadingLayout, lights: LightLayout, *, layered: bool
+    layout: ShadingLayout, lights: LightLayout, *, layered: bool, plane: bool = False
 ) -> tuple[Source, Source]:
-    """Return the vertex and the fragment source that draw a layout, with or without all layers."""
-    fragment = _fragment(layout, lights, layered)
+    """Return the vertex and the fragment source that draw a layout.
+
+    Args:
+        layout: The surface's.
+        lights: What of the scene's lights the program is made for.
+        layered: Whether all layers are drawn.
+        plane: Whether the mesh is a plane without end.
+    """
+    fragment = _fragment(layout, lights, layered, plane)
     return join(chunk("mesh.vert"), "mesh.vert"), join(fragment, layout.technique)
 
 
@@ -92,10 +102,11 @@ def sky_sources(kind: SkyKind) -> tuple[Source, Source]:
     return vertex, join("\n".join(lines), "sky")
 
 
-def _fragment(layout: ShadingLayout, lights: LightLayout, layered: bool) -> str:
+def _fragment(layout: ShadingLayout, lights: LightLayout, layered: bool, plane: bool) -> str:
     others = (layout.opacity, layout.light_map, layout.selection)
     parameters = [*layout.parameters, *(parameter for parameter in others if parameter)]
-    chunks = ["lib/fragment.glsl", f"surfaces/{layout.technique}.glsl"]
+    chunks = [f"lib/{'infinite_plane' if plane else 'fragment'}.glsl"]
+    chunks += [f"surfaces/{layout.technique}.glsl"]
     chunks += relief_chunks(layout)
     chunks += ["lib/opacity.glsl"] if layout.opacity else []
     chunks += ["lib/layers.glsl"] if layered else []
@@ -120,9 +131,11 @@ def _fragment(layout: ShadingLayout, lights: LightLayout, layered: bool) -> str:
         lines.append(f"    float opacity = bounded({_value(layout.opacity)}, point.color.a);")
         lines.append(_BY_OPACITY[layout.alpha_mode])
     if layered:
-        lines.append("    write_layers(point, albedo(surface), color.a);")
+        lines.append(f"    write_layers(point, albedo(surface), color.a, {_density(layout)});")
     if lights.visibility:
         lines.append("    layer_tangent.a = light_visibility(point);")
+    if plane:
+        lines.append("    if (!on_plane()) discard;")
     return "\n".join([*lines, "}"])
 
 
@@ -167,6 +180,20 @@ def _relief(layout: ShadingLayout) -> list[str]:
 def _moved_place(layout: ShadingLayout, lookup: LookupLayout, number: int) -> str:
     text = place_of(layout, lookup, number)
     return text if in_space(layout, lookup) else f"moved({text}, aside)"
+
+
+def _density(layout: ShadingLayout) -> str:
+    """Write how many texels of the main picture fit along a pixel; without one it is 0."""
+    mapped = {p.name: p.lookup for p in layout.parameters if p.lookup is not None}
+    main = next((name for name in _MAIN if name in mapped), None)
+    number = mapped[main] if main else next(iter(mapped.values()), None)
+    if number is None:
+        return "0.0"
+    lookup = layout.lookups[number]
+    if lookup.picture is None or lookup.returns == "Triplanar" or in_space(layout, lookup):
+        return "0.0"
+    place = place_of if layout.relief.parallax is None else _moved_place
+    return f"texel_density({looking(place(layout, lookup, number), number)})"
 
 
 def _declarations(parameter: Parameter) -> list[str]:

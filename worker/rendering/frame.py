@@ -7,9 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from worker.rendering.gl_context import GL
+from worker.rendering.infinite_planes import plane_uniforms, whole_target
 from worker.rendering.lighting import Lighting
 from worker.rendering.programs import Program
-from worker.rendering.pyrender_scene import FlatScene
+from worker.rendering.pyrender_scene import FlatScene, SurfacePrimitive
 from worker.rendering.targets import Target
 
 _SET_BY_PYRENDER = frozenset({"V", "P", "cam_pos"})
@@ -42,7 +43,8 @@ class Frame:
         scene: What is drawn.
         lights: What shines on it.
         target: Where the samples go.
-        clip_from_object: float32 (n, 4, 4), by the number of the drawable.
+        clip_from_object: (n, 4, 4), by the number of the drawable.
+        size: Of the tile in samples.
         corner: Of the tile in the picture, in samples from the lower left.
         picture: Width and height of the whole picture in pixels.
         supersampling: Samples along each side of a pixel.
@@ -54,9 +56,24 @@ class Frame:
     scene: FlatScene
     lights: Lighting
     target: Target
-    clip_from_object: NDArray[np.float32]
+    clip_from_object: NDArray[np.float64]
+    size: NDArray[np.int64]
     corner: NDArray[np.float64]
     picture: NDArray[np.float64]
     supersampling: int
     tile_from_picture: NDArray[np.float64]
     blending: bool
+
+    def place(self, program: Program, primitive: SurfacePrimitive) -> None:
+        """Tell the bound program where a primitive lies in the tile and stands to the eye."""
+        clip_from_object = self.clip_from_object[primitive.number]
+        tile = primitive.mesh.tile
+        if tile is not None and primitive.hidden:
+            eye_from_object = self.scene.world_from_object[primitive.number].copy()
+            eye_from_object[:3, 3] -= self.scene.view.world_from_camera[:3, 3]
+            places = plane_uniforms(tile, clip_from_object, eye_from_object, self.size)
+            for name, value in places.items():
+                program.set(name, value)
+            clip_from_object = whole_target(tile)
+        program.set("clip_from_object", clip_from_object)
+        self.scene.place(program, primitive)

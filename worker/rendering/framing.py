@@ -35,7 +35,9 @@ class Framing:
     clip_from_camera: Matrix
 
 
-def frame(camera: FramedCamera, placed: Iterable[Placed], aspect: float) -> Framing:
+def frame(
+    camera: FramedCamera, placed: Iterable[Placed], aspect: float, *, endless: bool = False
+) -> Framing:
     """Stand so that every vertex is in the picture, as near as that allows.
 
     Whether (x, y, z), in the camera's axes, is inside the left and right edges is linear in where
@@ -48,6 +50,7 @@ def frame(camera: FramedCamera, placed: Iterable[Placed], aspect: float) -> Fram
         camera: From which side, and how much free space.
         placed: What is to be seen.
         aspect: Width over height of the picture.
+        endless: Whether something else may come near the eye, which shall be seen too.
 
     Raises:
         RenderError: It has no direction, or up is along it (`camera_degenerate`).
@@ -66,6 +69,7 @@ def frame(camera: FramedCamera, placed: Iterable[Placed], aspect: float) -> Fram
     pose[:3, :3] = axes
     pose[:3, 3] = axes @ [(right - left) / 2, (top - bottom) / 2, depth]
     near, far = (depth - front) * (1 - _ROOM), (depth + back) * (1 + _ROOM)
+    near = min(near, _NEAREST * far) if endless else near
     return Framing(pose, perspective(camera.fov_y, aspect, near, far))
 
 

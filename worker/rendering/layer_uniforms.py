@@ -1,6 +1,6 @@
 """What lib/layers.glsl asks for beside the things every program is given."""
 
-from worker.geometry.transforms import Matrix
+from worker.rendering.frame import Frame
 from worker.rendering.gl_context import GL
 from worker.rendering.programs import Program
 from worker.rendering.vertex_arrays import VertexArray
@@ -15,8 +15,10 @@ class LayerUniforms:
         """Begin with nothing in OpenGL."""
         self._faces: dict[int, tuple[int, int]] = {}
 
-    def set(self, program: Program, world_from_camera: Matrix, mesh: VertexArray) -> None:
+    def set(self, program: Program, frame: Frame, mesh: VertexArray) -> None:
         """Tell the bound program where the eye is and how the mesh's triangles lie."""
+        world_from_camera = frame.scene.view.world_from_camera
+        program.set("samples_per_side", frame.supersampling)
         program.set("view_axis", -world_from_camera[:3, 2])
         program.set("has_faces", mesh.has_sides)
         program.set("face_normals", _UNIT)

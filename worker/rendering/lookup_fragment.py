@@ -2,11 +2,9 @@
 
 from collections.abc import Callable, Iterable
 
-from worker.rendering.shading_layout import LookupLayout, ShadingLayout
+from worker.rendering.shading_layout import SPACE_FILTERS, LookupLayout, ShadingLayout
 
 _SAMPLERS = {"picture": "sampler2D", "volume": "sampler3D", "cube": "samplerCube"}
-_IN_SPACE = ("nearest", "bilinear", "trilinear")
-"""Filters of volumes and cube maps; any other one is anisotropic there."""
 
 
 def lookup_chunks(layout: ShadingLayout) -> list[str]:
@@ -103,15 +101,22 @@ def _reading(layout: ShadingLayout, lookup: LookupLayout, number: int, where: st
     name, kind = f"picture_{lookup.picture}", _kind(layout, lookup)
     how += f", lookup_period[{number}]"
     if kind == "picture":
-        at = f"look_up({where}, {how}, lookup_size[{number}])"
-        return f"sample_{lookup.filter}({name}, {at})"
+        return f"sample_{lookup.filter}({name}, {looking(where, number)})"
     size = f"textureSize({name}, 0)"
     if kind == "cube":
         at = f"look_up_cube({where}, float({size}.x))"
     else:
         at = f"look_up_space({where}, {how}, vec3({size}))"
-    chosen = lookup.filter if lookup.filter in _IN_SPACE else "anisotropic"
+    chosen = lookup.filter if lookup.filter in SPACE_FILTERS else "anisotropic"
     return f"sample_{chosen}({name}, {at})"
+
+
+def looking(where: str, number: int) -> str:
+    """Write the Lookup of a picture at a place."""
+    return (
+        f"look_up({where}, lookup_transform[{number}], lookup_period[{number}], "
+        f"lookup_size[{number}])"
+    )
 
 
 def _kind(layout: ShadingLayout, lookup: LookupLayout) -> str:

@@ -10,16 +10,17 @@ import numpy as np
 
 from api_schemas.families import LayoutSpec, Meaning, TextureSpec
 from api_schemas.layouts.cube import CubeSpec
-from api_schemas.maps import Map, TextureTransform
-from api_schemas.relief import AnyMap
+from api_schemas.maps import TABLE_FILTERS, Filter, Map, TextureTransform
+from api_schemas.relief import AnyMap, ParallaxMap
 from api_schemas.solid import is_carved
 from worker.errors import RenderError
 from worker.images.pyramids import Cut
 from worker.images.relief import Preparation
+from worker.images.stored_form import BOX, StoredForm
 from worker.rendering.calls import call_of
 from worker.rendering.closed_forms import Formula
 from worker.rendering.samplers import Sampling
-from worker.rendering.shading_layout import FormulaLayout, LookupLayout
+from worker.rendering.shading_layout import SPACE_FILTERS, FormulaLayout, LookupLayout
 from worker.rendering.textures import Texture
 
 _UNITS = (1.0, 1.0, 1.0, 1.0)
@@ -38,8 +39,9 @@ class TextureSource(Protocol):
         cut: Cut | None = None,
         preparation: Preparation | None = None,
         layout: LayoutSpec | None = None,
+        form: StoredForm = BOX,
     ) -> Texture:
-        """Return the texture of a spec, with its mip levels if asked for.
+        """Return the texture of a spec, with its mip levels if asked for, or as a table.
 
         With a cut, the levels have as many holes as the texture. With a preparation, it holds what
         that asks for. With a layout, what that holds is drawn out over the rest.
@@ -153,20 +155,25 @@ class Lookups:
         self, mapped: AnyMap, meaning: Meaning, cut: Cut | None, preparation: Preparation | None
     ) -> int:
         u, v = mapped.wrap if mapped.layout is None else mapped.layout.joins
-        sampling = Sampling.of((u, v), mapped.filter)
+        carved = preparation is None and is_carved(mapped)
+        in_space = carved or isinstance(mapped.layout, CubeSpec)
+        filter_name = _stored_for(mapped, in_space)
+        sampling = Sampling.of((u, v), filter_name)
         border = tuple(mapped.border_color) if "border" in (u, v) else (0.0,) * 4
         read = (mapped.texture, meaning)
         if isinstance(mapped.layout, CubeSpec):
             texture = self._texture_of.cube(*read, mapped.layout, levels=sampling.levels)
-        elif preparation is None and is_carved(mapped):
+        elif in_space:
             texture = self._texture_of.volume(*read, levels=sampling.levels)
         else:
+            form = StoredForm.of(filter_name, mapped.pyramid, (u, v), border)
             texture = self._texture_of(
                 *read,
                 levels=sampling.levels,
                 cut=cut,
                 preparation=preparation,
                 layout=mapped.layout,
+                form=form,
             )
         picture = Picture(texture, sampling, border)
         if picture not in self.pictures:
@@ -184,6 +191,15 @@ class Lookups:
             )
         self._values |= found.uniforms
         return FormulaLayout(found.chunks, found.declarations, found.call, solid)
+
+
+def _stored_for(mapped: AnyMap, in_space: bool) -> Filter:
+    """Return the filter by which a texture is stored: some readings know few."""
+    if in_space and mapped.filter not in SPACE_FILTERS:
+        return "anisotropic"
+    if isinstance(mapped, ParallaxMap) and mapped.filter in TABLE_FILTERS:
+        return "trilinear"  # the walk through a relief reads levels itself
+    return mapped.filter
 
 
 def texture_from_uv(transform: TextureTransform, period: Sequence[float]) -> np.ndarray:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from api_schemas.families import Meaning
 
 PICTURE = "picture"
-ATTACHMENTS = 7
+ATTACHMENTS = 8
 AVERAGED = 2
 """So many attachments, the first ones, hold the mean of a pixel's samples, the others the nearest
 sample that shows a thing."""
@@ -30,6 +30,9 @@ class Place:
         return self.end - self.start
 
 
+SHADING_DIFFERENCE = "shading_difference"
+"""The picture, less what one sample for each pixel makes of it."""
+
 PLACES: Mapping[str, Place] = {
     PICTURE: Place(0, 0, 4, "colour"),
     "albedo": Place(1, 0, 4, "colour"),
@@ -43,6 +46,9 @@ PLACES: Mapping[str, Place] = {
     "tangent": Place(5, 0, 3),
     "light_visibility": Place(5, 3, 4),
     "uv": Place(6, 0, 2),
+    "texel_density": Place(6, 2, 3),
+    "footprint": Place(7, 0, 4),
+    SHADING_DIFFERENCE: Place(0, 0, 3, "colour"),
 }
 
 SAMPLED: Mapping[str, Place] = {

@@ -86,7 +86,8 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
             scene=scene,
             lights=lights,
             target=target,
-            clip_from_object=floats(clip_from_world @ scene.world_from_object),
+            clip_from_object=clip_from_world @ scene.world_from_object,
+            size=np.array(size),
             corner=np.rint((picture - (1 + tile_from_picture[:2, 3]) * size) / 2),
             picture=np.rint(picture / supersampling),
             supersampling=supersampling,
@@ -160,8 +161,10 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
             lights = replace(self._frame.lights.layout, sky=sky.kind if sky else "none")
         elif self._frame.lights.layout.visibility:
             lights = self._frame.lights.layout
+        plane = primitive.mesh.tile is not None
         return self._linked(
-            (layout, lights, layered), lambda: surface_sources(layout, lights, layered=layered)
+            (layout, lights, layered, plane),
+            lambda: surface_sources(layout, lights, layered=layered, plane=plane),
         )
 
     def _bind_lighting(
@@ -184,22 +187,23 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         self, primitive: SurfacePrimitive, pose: Matrix, program: Program, flags: int
     ) -> None:
         assert self._frame is not None
-        scene, number = self._frame.scene, primitive.number
-        program.set("clip_from_object", self._frame.clip_from_object[number])
-        scene.place(program, primitive)
+        self._frame.place(program, primitive)
         self._units.bind(program, primitive.material.shading)
-        if "sky_from_world" in program.uniforms and (sky := scene.sky_of(primitive)) is not None:
+        if (
+            "sky_from_world" in program.uniforms
+            and (sky := self._frame.scene.sky_of(primitive)) is not None
+        ):
             self._units.bind_sky(program, sky)
         if self._frame.target.layered:
             program.set("object_id", primitive.thing)
             program.set("material_id", primitive.material.number)
-            self._layers.set(program, scene.view.world_from_camera, primitive.mesh)
+            self._layers.set(program, self._frame, primitive.mesh)
         if primitive.material.shading.layout.alpha_mode == "blend" and not self._frame.blending:
             self._begin_blending()
         start = time.perf_counter()
         primitive.mesh.bind()
         # A mirrored transform turns the winding, but not which side is the outer one.
-        GL.glFrontFace(GL.GL_CW if primitive.mirrored else GL.GL_CCW)
+        GL.glFrontFace(GL.GL_CW if primitive.clockwise else GL.GL_CCW)
         for hidden in primitive.hidden:
             if hidden is None:
                 GL.glDisable(GL.GL_CULL_FACE)

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from worker.geometry.transforms import Matrix, normal_matrix
 from worker.rendering.draw_order import back_to_front, nearness
 from worker.rendering.gl_context import GL, floats
+from worker.rendering.infinite_planes import eye_side
 from worker.rendering.programs import Program
 from worker.rendering.shading import Shading
 from worker.rendering.sky import Sky
@@ -110,6 +111,7 @@ class SurfacePrimitive(pyrender.Primitive):  # type: ignore[misc]
         number: Its place among the drawables.
         thing: Its object id.
         mirrored: Whether its transform turns the winding of triangles.
+        clockwise: Whether the outer sides of triangles are wound clockwise on the screen.
         hidden: Which sides are left out in each pass: outer, inner, or none (None).
         elements: Its triangles, lines or points from back to front, where that matters.
     """
@@ -125,6 +127,7 @@ class SurfacePrimitive(pyrender.Primitive):  # type: ignore[misc]
         self.number = number
         self.thing = drawable.thing
         self.mirrored = mirrored
+        self.clockwise = mirrored
         self.hidden = (GL.GL_BACK,)
         self.elements = None
         blended = drawable.shading.layout.alpha_mode == "blend"
@@ -142,6 +145,15 @@ class SurfacePrimitive(pyrender.Primitive):  # type: ignore[misc]
                 self.hidden = (None,)
             towards_eye = drawable.world_from_object[:3, :3].T @ view.world_from_camera[:3, 2]
             self.elements = back_to_front(self.mesh.positions, self.mesh.elements, towards_eye)
+        if self.mesh.tile is not None:
+            side = eye_side(
+                self.mesh.tile,
+                drawable.world_from_object,
+                view.world_from_camera,
+                orthographic=view.orthographic,
+            )
+            self.clockwise = side < 0
+            self.hidden = self.hidden if side else ()
 
 
 class PlacedNode(pyrender.Node):  # type: ignore[misc]
@@ -215,8 +227,9 @@ class FlatScene(pyrender.Scene):  # type: ignore[misc]
         self.casters = [nodes[number] for number in order if drawables[number].casts_shadows]
 
     def corners(self) -> NDArray[np.float64]:
-        """Give the corners of boxes that hold all that is drawn: (n, 3) in the world."""
-        boxes = [drawable.corners() for drawable in self._drawables]
+        """Give the corners of boxes that hold all that has an end: (n, 3) in the world."""
+        ended = (drawable for drawable in self._drawables if drawable.mesh.tile is None)
+        boxes = [drawable.corners() for drawable in ended]
         return np.concatenate([np.empty((0, 3)), *boxes])
 
     def sky_of(self, primitive: SurfacePrimitive) -> Sky | None:

@@ -24,6 +24,8 @@ from worker.rendering.bands import Band, OpenBand
 from worker.rendering.cryptomatte import Mattes, attributes, mattes_of
 from worker.rendering.gl_context import GLContext, check
 from worker.rendering.lighting import lighting
+from worker.rendering.packing import SHADING_DIFFERENCE
+from worker.rendering.pixel_filters import apron
 from worker.rendering.placing import ModelReader
 from worker.rendering.pyrender_adapter import FloatRenderer
 from worker.rendering.pyrender_scene import FlatScene
@@ -38,6 +40,7 @@ from worker.rendering.tiles import (
     bands,
     tile_from_picture,
     tile_size,
+    widened,
 )
 from worker.rendering.turntable import layers, sheet, turns_of
 from worker.stages import Report
@@ -182,8 +185,11 @@ def _bands(
     supersampling = output.supersampling
     layered = bool(output.layers)
     most = LAYERED_SAMPLES_MAX if layered else SAMPLES_MAX
-    size = tile_size(width, height, supersampling, most)
-    target = engine.targets.fit(*size, supersampling, layered=layered)
+    around = apron(output.pixel_filter)
+    size = tile_size(width, height, supersampling, most, around)
+    target = engine.targets.fit(
+        *size, supersampling, layered=layered, pixel_filter=output.pixel_filter
+    )
     jit_before = engine.renderer.jit_seconds
     engine.renderer.draw_shadows(scene, lights)
     spent = time.perf_counter() - start
@@ -193,16 +199,25 @@ def _bands(
         band = OpenBand.empty(output.layers, mattes, tiles[0].height, width, supersampling)
         for tile in tiles:
             report((above + tile.height * tile.left / width) / height, "draw")
+            seen = widened(tile, around)
             engine.renderer.draw(
                 scene,
                 lights,
                 target,
-                tile_from_picture(tile, width, height),
-                (tile.width * supersampling, tile.height * supersampling),
+                tile_from_picture(seen, width, height),
+                (seen.width * supersampling, seen.height * supersampling),
                 supersampling,
             )
-            band.read_samples(target, tile, supersampling)
-            band.read(engine.targets.resolve(tile.width, tile.height, supersampling), tile)
+            band.read_samples(target, tile, supersampling, around)
+            resolved = engine.targets.resolve(
+                tile.width, tile.height, supersampling, output.pixel_filter
+            )
+            band.read(resolved, tile)
+            if SHADING_DIFFERENCE in output.layers:
+                place = tile_from_picture(tile, width, height)
+                pixels = (tile.width, tile.height)
+                engine.renderer.draw(scene, lights, target, place, pixels, supersampling=1)
+                band.subtract(target, tile)
         check("resolving samples")
         spent += time.perf_counter() - start
         yield band.images()

@@ -37,8 +37,8 @@ class Sampling:
         """Give the state that a filter of the language needs."""
         return cls(
             wrap=wrap,
-            smooth=filter_name != "nearest",
-            levels=filter_name in ("trilinear", "anisotropic"),
+            smooth=filter_name not in ("nearest", "summed_area"),
+            levels=filter_name in ("trilinear", "anisotropic", "ewa"),
         )
 
     @property

@@ -108,12 +108,15 @@ class SceneBuilder:
                     item.name,
                 )
             )
+        endless = any(found.mesh.tile is not None for found in kept)
+        bounded = any(found.mesh.tile is None for found in kept)
         vertices = (
             (found.mesh.positions, turn @ item.world_from_object)
             for turn in turns
             for item, found in zip(placed, kept, strict=True)
+            if found.mesh.tile is None or not bounded  # planes without end are framed only alone
         )
-        view = view_of(scene.camera, models, vertices, aspect)
+        view = view_of(scene.camera, models, vertices, aspect, endless=endless)
         lights, left_out = lights_of(
             scene.lights,
             models,

@@ -12,6 +12,9 @@ from worker.rendering.textures import TextureFormat
 SkyKind = Literal["none", "latlong", "cube"]
 """The chunks of shaders/skies."""
 
+SPACE_FILTERS: tuple[Filter, ...] = ("nearest", "bilinear", "trilinear")
+"""Filters of volumes and cube maps; any other one is anisotropic there."""
+
 
 @dataclass(frozen=True, slots=True)
 class Parameter:

@@ -112,6 +112,8 @@ class ShadowMaps(pyrender.Renderer):  # type: ignore[misc]
         self, primitive: SurfacePrimitive, pose: Matrix, program: Program, flags: int
     ) -> None:
         assert self._pass is not None
+        if primitive.mesh.tile is not None:
+            return  # what has no end would keep all light away
         program.set("clip_from_object", self._pass.clip_from_object[primitive.number])
         if primitive.material.shading.layout.has_holes:
             self._pass.scene.place(program, primitive)

@@ -37,7 +37,12 @@ class PlacedModel:
 
 
 def view_of(
-    camera: Camera | None, models: Sequence[PlacedModel], placed: Iterable[Placed], aspect: float
+    camera: Camera | None,
+    models: Sequence[PlacedModel],
+    placed: Iterable[Placed],
+    aspect: float,
+    *,
+    endless: bool = False,
 ) -> View:
     """Return the eye.
 
@@ -46,6 +51,7 @@ def view_of(
         models: Where a model's camera is sought.
         placed: Vertices of all that is drawn, for a camera that frames them.
         aspect: Width over height of the picture.
+        endless: Whether there are planes without end, too.
 
     Raises:
         RenderError: It is degenerate (`camera_degenerate`), or no model has it
@@ -57,7 +63,7 @@ def view_of(
     if isinstance(camera, ModelCamera):
         return _view_of_model(camera, models, aspect)
     if isinstance(camera, FramedCamera):
-        framing = frame(camera, placed, aspect)
+        framing = frame(camera, placed, aspect, endless=endless)
         return View(framing.world_from_camera, framing.clip_from_camera, orthographic=False)
     return View(
         world_from_camera=world_from_camera(camera.pose),

@@ -1,14 +1,17 @@
 """Float framebuffers: where samples are drawn, and where they are resolved to pixels."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from api_schemas.output import PixelFilter
 from worker.errors import RenderError
 from worker.rendering.chunks import chunk, join
 from worker.rendering.gl_context import GL
 from worker.rendering.packing import ATTACHMENTS, AVERAGED
+from worker.rendering.pixel_filters import apron, weights
 from worker.rendering.programs import Program
 
 
@@ -50,6 +53,11 @@ class Target:
         """Whether there are layers beside the picture."""
         return len(self.textures) > 1
 
+    def draw_into_all(self) -> None:
+        """Let what is drawn into it, it is bound, go to all its textures."""
+        places = [GL.GL_COLOR_ATTACHMENT0 + index for index in range(len(self.textures))]
+        GL.glDrawBuffers(len(places), places)
+
     def write(self, *, averaged: bool, nearest: bool) -> None:
         """Choose which layers the next draws change; the picture always is.
 
@@ -85,28 +93,42 @@ class TargetPair:
         self._programs: dict[str, Program] = {}
         self._no_vertices = 0
 
-    def fit(self, width: int, height: int, supersampling: int, *, layered: bool) -> Target:
+    def fit(
+        self,
+        width: int,
+        height: int,
+        supersampling: int,
+        *,
+        layered: bool,
+        pixel_filter: PixelFilter = "box",
+    ) -> Target:
         """Return a sample target for tiles of so many pixels, kept until another one is needed."""
         attachments = ATTACHMENTS if layered else 1
-        size = (width * supersampling, height * supersampling)
+        more = 2 * apron(pixel_filter)
+        size = ((width + more) * supersampling, (height + more) * supersampling)
         self._samples = _fitting(self._samples, size, attachments, depth=True)
-        if layered or supersampling > 1:
+        if layered or supersampling > 1 or more:
             self._pixels = _fitting(self._pixels, (width, height), attachments, depth=False)
         return self._samples
 
-    def resolve(self, width: int, height: int, supersampling: int) -> Target:
+    def resolve(
+        self, width: int, height: int, supersampling: int, pixel_filter: PixelFilter = "box"
+    ) -> Target:
         """Make pixels of the samples in the sample target.
 
         Args:
             width: Of the tile in pixels.
             height: Of the tile in pixels.
             supersampling: Samples per pixel along each side.
+            pixel_filter: How they become a pixel's light. What is known of a thing is still that
+                of the nearest sample in the pixel itself.
 
         Returns:
             The target whose lower left part holds the pixels.
         """
         assert self._samples is not None
-        if supersampling == 1 and not self._samples.layered:
+        layered, plain = self._samples.layered, pixel_filter == "box"
+        if supersampling == 1 and plain and not layered:
             return self._samples
         assert self._pixels is not None
         GL.glBindFramebuffer(GL.GL_DRAW_FRAMEBUFFER, self._pixels.framebuffer)
@@ -115,9 +137,25 @@ class TargetPair:
         GL.glDisable(GL.GL_CULL_FACE)
         GL.glDisable(GL.GL_BLEND)
         self._samples.write(averaged=True, nearest=True)
-        program = self._program("resolve_layers.frag" if self._samples.layered else "resolve.frag")
-        program.bind()
-        for unit, texture in enumerate(self._samples.textures):
+        if layered or plain:
+            program = self._program("resolve_layers.frag" if layered else "resolve.frag")
+            program.bind()
+            if layered:
+                program.set("apron", apron(pixel_filter))
+            self._fill(program, self._samples.textures, supersampling)
+        if not plain:
+            program = self._program("resolve_filtered.frag")
+            program.bind()
+            program.set("weights", weights(pixel_filter, supersampling))
+            for index in range(AVERAGED if layered else 1):
+                GL.glDrawBuffers(1, [GL.GL_COLOR_ATTACHMENT0 + index])
+                self._fill(program, self._samples.textures[index : index + 1], supersampling)
+            self._pixels.draw_into_all()
+        return self._pixels
+
+    def _fill(self, program: Program, samples: Sequence[int], supersampling: int) -> None:
+        """Draw the bound program over the whole target."""
+        for unit, texture in enumerate(samples):
             GL.glActiveTexture(GL.GL_TEXTURE0 + unit)
             GL.glBindTexture(GL.GL_TEXTURE_2D, texture)
             GL.glBindSampler(unit, 0)
@@ -126,10 +164,9 @@ class TargetPair:
         GL.glBindVertexArray(self._no_vertices)
         GL.glDrawArrays(GL.GL_TRIANGLES, 0, 3)
         GL.glBindVertexArray(0)
-        for unit in range(len(self._samples.textures)):
+        for unit in range(len(samples)):
             GL.glActiveTexture(GL.GL_TEXTURE0 + unit)
             GL.glBindTexture(GL.GL_TEXTURE_2D, 0)
-        return self._pixels
 
     def trim(self) -> None:
         """Free targets with layers, which are large and seldom wanted."""

@@ -5,9 +5,9 @@ from functools import partial
 from api_schemas.families import LayoutSpec, Meaning, TextureSpec
 from api_schemas.layouts.cube import CubeSpec
 from worker.errors import RenderError
-from worker.images.image import Image
-from worker.images.pyramids import Cut, keep_coverage, mip_chain
+from worker.images.pyramids import Cut, mip_chain
 from worker.images.relief import Preparation, prepared
+from worker.images.stored_form import BOX, StoredForm, stored
 from worker.images.volume_pyramids import volume_chain
 from worker.layouts import filled
 from worker.layouts.cube import faces_of_opengl
@@ -48,16 +48,18 @@ class _Source:
         cut: Cut | None = None,
         preparation: Preparation | None = None,
         layout: LayoutSpec | None = None,
+        form: StoredForm = BOX,
     ) -> Texture:
-        cut = cut if levels else None
+        cut = cut if levels or form.kind == "ripmap" else None
+        form = form if levels or form.is_table else BOX
         holding = None if layout is None or layout.whole else layout
-        key = (spec.model_dump_json(), meaning, levels, cut, preparation, holding)
+        key = (spec.model_dump_json(), meaning, levels, cut, preparation, holding, form)
 
         def make() -> tuple[Texture, int]:
             image = prepared(self._maker(spec, meaning), preparation)
-            if holding is not None:
-                image = Image(filled(holding, image.pixels), image.meaning)
-            return _upload(image, levels, cut)
+            pixels = image.pixels if holding is None else filled(holding, image.pixels)
+            chain = stored(pixels, form, levels=levels, cut=cut)
+            return _sized(Texture.upload(chain, image.meaning, (image.height, image.width)))
 
         return self._kept.get(key, make)
 
@@ -96,13 +98,6 @@ class _Source:
         faces = faces_of_opengl(layout, image.pixels)
         chains = [mip_chain(face) if levels else [face] for face in faces]
         return _sized(Texture.upload_cube(chains, image.meaning))
-
-
-def _upload(image: Image, levels: bool, cut: Cut | None) -> tuple[Texture, int]:
-    chain = mip_chain(image.pixels) if levels else [image.pixels]
-    if cut is not None:
-        keep_coverage(chain, cut)
-    return _sized(Texture.upload(chain, image.meaning))
 
 
 def _sized(texture: Texture) -> tuple[Texture, int]:

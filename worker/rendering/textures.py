@@ -45,7 +45,7 @@ class TextureFormat:
 
 @dataclass(frozen=True, slots=True)
 class Texture:
-    """A texture that lives in OpenGL."""
+    """A texture that lives in OpenGL, with the size of the picture in it."""
 
     number: int
     width: int
@@ -54,13 +54,19 @@ class Texture:
     size_bytes: int
 
     @classmethod
-    def upload(cls, levels: Sequence[NDArray[np.float32]], meaning: Meaning) -> "Texture":
+    def upload(
+        cls,
+        levels: Sequence[NDArray[np.float32]],
+        meaning: Meaning,
+        size: tuple[int, int] | None = None,
+    ) -> "Texture":
         """Copy a picture and its smaller levels to OpenGL.
 
         Args:
             levels: float32 (height, width, channels) each, level 0 first, row 0 at the top; each
                 side half the one before, rounded down. One level has no smaller ones.
             meaning: What the channels are.
+            size: Height and width of the picture that a table stands for.
 
         Raises:
             RenderError: OpenGL has no room.
@@ -71,7 +77,7 @@ class Texture:
             kind = (_INTERNAL[channels], width, height, 0, _LAYOUT[channels], GL.GL_FLOAT)
             # v is up: OpenGL's first row is the lowest
             GL.glTexImage2D(GL.GL_TEXTURE_2D, index, *kind, floats(level[::-1]))
-        return _finished(number, "picture", levels[0].shape[:2], levels, meaning)
+        return _finished(number, "picture", size or levels[0].shape[:2], levels, meaning)
 
     @classmethod
     def upload_volume(cls, levels: Sequence[NDArray[np.float32]], meaning: Meaning) -> "Texture":
@@ -147,6 +153,7 @@ def _finished(
     GL.glBindTexture(_TARGETS[kind], 0)
     check("uploading a texture")
     height, width = size
+    held = levels[0].shape[-3:-1]  # of a table another size
     return Texture(
         number=number,
         width=width,
@@ -154,7 +161,7 @@ def _finished(
         format=TextureFormat(
             channels=levels[0].shape[-1],
             meaning=meaning,
-            powers_of_two=(width & (width - 1) == 0, height & (height - 1) == 0),
+            powers_of_two=(held[1] & (held[1] - 1) == 0, held[0] & (held[0] - 1) == 0),
             levels=len({level.shape for level in levels}) > 1,
             kind=kind,
         ),

@@ -12,7 +12,12 @@ from worker.rendering.draw_order import is_convex
 from worker.rendering.gl_context import GL, check, floats
 
 _POSITION, _NORMAL, _TANGENT, _COLOUR, _UV = range(5)  # the locations of mesh.vert
-_MODES = {"triangles": GL.GL_TRIANGLES, "lines": GL.GL_LINES, "points": GL.GL_POINTS}
+_MODES = {
+    "triangles": GL.GL_TRIANGLES,
+    "lines": GL.GL_LINES,
+    "points": GL.GL_POINTS,
+    "plane": GL.GL_TRIANGLES,
+}
 _FLOAT_BYTES = 4
 
 
@@ -27,6 +32,7 @@ class VertexArray:
         positions: float32 (n, 3), as OpenGL holds them.
         elements: uint32 (m, 3) of triangles, (m, 2) of lines, (m, 1) of points.
         size_bytes: What it holds, in OpenGL and here.
+        tile: Of a plane without end, float64 (2, 3): one texture's extent along u and along v.
     """
 
     number: int
@@ -35,6 +41,7 @@ class VertexArray:
     positions: NDArray[np.float32]
     elements: NDArray[np.uint32]
     size_bytes: int
+    tile: NDArray[np.float64] | None = None
 
     @classmethod
     def upload(cls, mesh: Mesh) -> "VertexArray":
@@ -79,6 +86,9 @@ class VertexArray:
             positions=positions,
             elements=rows,
             size_bytes=data.nbytes + 2 * rows.nbytes + positions.nbytes,
+            tile=np.diff(mesh.positions[[0, 1, 0, 2]], axis=0)[::2] / 4
+            if mesh.kind == "plane"
+            else None,
         )
 
     @functools.cached_property

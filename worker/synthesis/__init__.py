@@ -41,7 +41,7 @@ from api_schemas.maps import DATA
 from api_schemas.own_size import Size, size_within
 from api_schemas.parameters import ParameterMap
 from api_schemas.textures.image import ImageSpec
-from api_schemas.walk import meaning_of
+from api_schemas.walk import is_in_space, meaning_of
 from worker.closed_form import ClosedForm
 from worker.images.volume import Volume
 from worker.stages import silent
@@ -238,7 +238,7 @@ def _slots(spec: TextureSpec, meaning: Meaning) -> dict[str, tuple[TextureSpec, 
     slots = {}
     for name, field in type(spec).model_fields.items():
         value = getattr(spec, name)
-        if isinstance(value, TextureSpec):
+        if isinstance(value, TextureSpec) and not is_in_space(field):
             slots[name] = (value, meaning_of(field, meaning))
         elif isinstance(value, ParameterMap):
             slots[name] = (value.texture, DATA.meaning)

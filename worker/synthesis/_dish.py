@@ -56,18 +56,18 @@ def _spread_row(after: Row, above: Row, c: Row, below: Row, rates: Row, time_ste
 
 
 def parameter_rows(spec: CellsSpec, inputs: Mapping[str, Image]) -> dict[str, Rows]:
-    """Return every parameter by name, from its number or from the picture of its texture."""
-    width = spec.size[0]
-    rows = {}
-    for name in spec.parameters:
-        by = mapped(spec, name)
-        if by is None:
-            rows[name] = np.full((1, width + 2), getattr(spec, name), np.float64)
-        else:
-            low, high = by.range
-            share = np.clip(channels(spec, inputs[name])[0], 0, 1)
-            rows[name] = with_rim(low + (high - low) * share)
-    return rows
+    """Return every parameter by name."""
+    return {name: rows_of(spec, name, inputs) for name in spec.parameters}
+
+
+def rows_of(spec: CellsSpec, name: str, inputs: Mapping[str, Image]) -> Rows:
+    """Return a parameter, from its number or from the picture of its texture."""
+    by = mapped(spec, name)
+    if by is None:
+        return np.full((1, spec.size[0] + 2), getattr(spec, name), np.float64)
+    low, high = by.range
+    share = np.clip(channels(spec, inputs[name])[0], 0, 1)
+    return with_rim(low + (high - low) * share)
 
 
 def channels(spec: CellsSpec, image: Image) -> NDArray[np.float64]:

@@ -9,7 +9,16 @@ import numpy as np
 from worker.errors import RenderError
 from worker.images.image import Image
 from worker.stages import silent
-from worker.synthesis._dish import dish_at, fill_rim, noise, parameter_rows, spread, with_rim
+from worker.synthesis._directions import angles_of, spread_along, tensors_along
+from worker.synthesis._dish import (
+    dish_at,
+    fill_rim,
+    noise,
+    parameter_rows,
+    rows_of,
+    spread,
+    with_rim,
+)
 from worker.synthesis._pointwise import held
 from worker.synthesis._resample import resample
 from worker.synthesis.outcome import Outcome
@@ -39,6 +48,7 @@ class Reaction:
         spec: What was asked for.
         cells: (chemicals, height + 2, width + 2).
         parameters: As the spec names them.
+        tensors: How much slower everything spreads in some directions, or None.
     """
 
     def __init__(self, spec: ReactionSpec, inputs: Mapping[str, Image]) -> None:
@@ -49,6 +59,11 @@ class Reaction:
         self.spec = spec
         self.cells = dish_at(spec, rest, inputs)
         self.parameters = parameter_rows(spec, inputs)
+        self.tensors = None
+        if spec.across < 1:
+            direction = rows_of(spec, "direction", inputs)
+            angle = angles_of(spec, direction, inputs.get("guide"), spec.guide_radius)
+            self.tensors = tensors_along(angle, 1.0, spec.across, spec.border)
         width, height = spec.size
         amount = np.full((height, width), spec.disturbance)
         if "mask" in inputs:
@@ -90,7 +105,10 @@ def run(reaction: Reaction, react: React, report: Report = silent) -> tuple[Cell
     taken, change = 0, 0.0
     while taken < spec.steps:
         fill_rim(before, spec.border)
-        spread(after, before, diffusions, spec.time_step)
+        if reaction.tensors is None:
+            spread(after, before, diffusions, spec.time_step)
+        else:
+            spread_along(after, before, reaction.tensors, diffusions, spec.time_step)
         react(after, before, parameters, spec.time_step)
         taken += 1
         if taken % _STEPS_PER_LOOK == 0 or taken == spec.steps:
@@ -152,4 +170,5 @@ def picture_of(chemical: Cells, size: tuple[int, int]) -> Image:
 
 def warmed(spec: ReactionSpec, react: React) -> None:
     """Compile a reaction, and all that comes before and after it."""
-    outcome_of(Reaction(spec, {}), react, (8, 8), silent)
+    for described in (spec, spec.model_copy(update={"across": 0.5})):
+        outcome_of(Reaction(described, {}), react, (8, 8), silent)

@@ -16,7 +16,7 @@ from api_schemas.textures.constant import ConstantSpec
 from worker.images.image import Image
 from worker.numba_kernel import kernel
 from worker.stages import silent
-from worker.synthesis._directions import directions_of
+from worker.synthesis._directions import angles_of, inflow_at, tensors_along
 from worker.synthesis._dish import at, channels, fill_rim, parameter_rows
 from worker.synthesis._pointwise import held
 from worker.synthesis._resample import resample
@@ -51,27 +51,9 @@ def synthesize(
 def tensors_of(
     spec: AnisotropicDiffusionSpec, rows: Mapping[str, Rows], guide: Image | None = None
 ) -> Cells:
-    """Return D11, D22 and D12 of every cell with its rim, (3, height + 2, width + 2).
-
-    The second axis runs down, as rows do: D12 has the other sign than with v up.
-    """
-    width, height = spec.size
-    angle = np.array(np.broadcast_to(rows["direction"][:, 1:-1], (height, width)))
-    if guide is not None:
-        angle += directions_of(channels(spec, guide)[0], spec.guide_radius)
-    along, across = rows["along"][:, 1:-1], rows["across"][:, 1:-1]
-    cosine, sine = np.cos(angle), np.sin(angle)
-    tensors = np.zeros((3, height + 2, width + 2))
-    inside = tensors[:, 1:-1, 1:-1]
-    inside[0] = along * cosine**2 + across * sine**2
-    inside[1] = along * sine**2 + across * cosine**2
-    inside[2] = (across - along) * cosine * sine
-    fill_rim(tensors, "torus" if spec.border == "torus" else "no_flux")
-    if spec.border == "no_flux":
-        # Seen in the mirror of a wall a direction leans to the other side
-        tensors[2, [0, -1]] *= -1
-        tensors[2, :, [0, -1]] *= -1
-    return tensors
+    """Return the tensor of every cell with its rim, as `_directions` makes them."""
+    angle = angles_of(spec, rows["direction"], guide, spec.guide_radius)
+    return tensors_along(angle, rows["along"][:, 1:-1], rows["across"][:, 1:-1], spec.border)
 
 
 def run(
@@ -136,16 +118,7 @@ def _step(
 
 @kernel
 def _step_row(after: Row, c: Cells, tensors: Cells, loss: Row, gain: Row, time_step: float) -> None:
-    d11, d22, d12 = tensors[0], tensors[1], tensors[2]
     for x in range(1, len(after) - 1):
-        left, right = x - 1, x + 1
         here = c[1, x]
-        total = (d11[1, x] + d11[1, right]) * (c[1, right] - here) / 2
-        total -= (d11[1, x] + d11[1, left]) * (here - c[1, left]) / 2
-        total += (d22[1, x] + d22[2, x]) * (c[2, x] - here) / 2
-        total -= (d22[1, x] + d22[0, x]) * (here - c[0, x]) / 2
-        total += d12[1, right] * (c[2, right] - c[0, right]) / 4
-        total -= d12[1, left] * (c[2, left] - c[0, left]) / 4
-        total += d12[2, x] * (c[2, right] - c[2, left]) / 4
-        total -= d12[0, x] * (c[0, right] - c[0, left]) / 4
-        after[x] = here + time_step * (total - loss[x] * here + gain[x])
+        gained = inflow_at(c, tensors, x)
+        after[x] = here + time_step * (gained - loss[x] * here + gain[x])

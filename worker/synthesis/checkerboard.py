@@ -14,6 +14,7 @@ import numpy as np
 
 from worker.images.image import Image
 from worker.images.volume import Volume
+from worker.synthesis._two_colors import blended
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -24,8 +25,6 @@ if TYPE_CHECKING:
     from worker.closed_form import Parameter
     from worker.stages import Report
 
-_BAND_ROWS = 64
-
 
 def synthesize(
     spec: CheckerboardSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Report
@@ -33,7 +32,7 @@ def synthesize(
     """Average the tile over each pixel of (width, height); the lower left square has colors[0]."""
     width, height = size
     down = _mean_signs(spec.cells[1], height)[::-1]
-    return Image(_blended(spec, _mean_signs(spec.cells[0], width), down), spec.meaning)
+    return Image(blended(spec.colors, _mean_signs(spec.cells[0], width), down), spec.meaning)
 
 
 def synthesize_volume(
@@ -43,7 +42,7 @@ def synthesize_volume(
     width, height, depth = size
     down = _mean_signs(spec.cells[1], height)[::-1]
     away = _mean_signs(_cells(spec)[2], depth)
-    rows = _blended(spec, _mean_signs(spec.cells[0], width), np.outer(away, down).ravel())
+    rows = blended(spec.colors, _mean_signs(spec.cells[0], width), np.outer(away, down).ravel())
     return Volume(rows.reshape(depth, height, width, -1), spec.meaning)
 
 
@@ -84,20 +83,6 @@ def _cells(spec: CheckerboardSpec) -> tuple[int, int, int]:
 
 def _triangle(x: NDArray[np.float64]) -> NDArray[np.float64]:
     return 1 - abs(1 - x % 2)
-
-
-def _blended(
-    spec: CheckerboardSpec, across: NDArray[np.float64], down: NDArray[np.float64]
-) -> NDArray[np.float32]:
-    first, second = np.array(spec.colors, np.float32).astype(np.float64)
-    signs, row_kinds = np.unique(down, return_inverse=True)
-    rows = np.empty((len(signs), len(across), len(first)), np.float32)
-    # In float64, so that pure colours and equal colours come out exactly; banded to stay small
-    for start in range(0, len(signs), _BAND_ROWS):
-        products = np.multiply.outer(signs[start : start + _BAND_ROWS], across)
-        share = (0.5 + 0.5 * products)[..., np.newaxis]
-        rows[start : start + _BAND_ROWS] = share * first + (1 - share) * second
-    return rows[row_kinds]
 
 
 def _mean_signs(cells: int, pixels: int) -> NDArray[np.float64]:

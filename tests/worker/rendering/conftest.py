@@ -1,5 +1,6 @@
 import pytest
 
+from api_schemas.textures.prefiltered_environment import PrefilteredEnvironmentSpec
 from tests.worker.rendering.studio import Studio
 
 
@@ -9,3 +10,9 @@ def studio() -> Studio:
     from worker.rendering.renderer import render  # noqa: PLC0415
 
     return Studio(render)
+
+
+@pytest.fixture
+def small_cubes(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Blurred skies of few texels, for tests that do not look at them closely."""
+    monkeypatch.setattr(PrefilteredEnvironmentSpec, "cube_side", 16)

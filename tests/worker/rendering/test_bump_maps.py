@@ -1,11 +1,13 @@
 """Bump maps against the tilt worked out by hand (T10), and frames that they tilt along."""
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 
 from tests.worker.rendering.studio import Pixels, Studio
+from tests.worker.rendering.test_vertex_arrays import SQUARE, UV
 
 pytestmark = pytest.mark.gl
 
@@ -76,6 +78,17 @@ def test_a_picture_that_lies_turned_has_its_bumps_turned(studio: Studio, turn: f
     seen = seen_normals(studio, bump(studio, [1.0, 0.0], transform={"rotation": turn}))
 
     np.testing.assert_allclose(seen[4, 4], unit([np.cos(turn), -np.sin(turn), 1.0]), atol=TOLERANCE)
+
+
+@pytest.mark.parametrize("signs", [[-1, 1], [1, -1], [-1, -1]], ids=str)
+def test_in_a_mirrored_chart_bumps_are_mirrored(studio: Studio, signs: list[int]) -> None:
+    flipped = np.where(np.array(signs) < 0, 1 - UV, UV)
+    mesh = studio.mesh(replace(SQUARE, uv_sets=(flipped,)))
+
+    seen = seen_normals(studio, bump(studio, [0.5, 0.25]), mesh=mesh)
+
+    expected = unit([0.5 * signs[0], 0.25 * signs[1], 1.0])
+    np.testing.assert_allclose(seen[4, 4], expected, atol=TOLERANCE)
 
 
 def test_a_bump_map_tilts_what_a_normal_map_has_tilted(studio: Studio) -> None:

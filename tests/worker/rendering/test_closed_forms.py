@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
-from pydantic import TypeAdapter
+from pydantic import TypeAdapter, ValidationError
 
+from api_schemas.families import TextureSpec
 from api_schemas.language import FAMILIES, Texture
 from worker import synthesis
 from worker.closed_form import ClosedForm
@@ -150,7 +151,7 @@ def test_a_ramp_colours_what_is_in_it(draw, interpolation):
     shown = draw(form, where, PIXEL)
 
     # Read off the noise that the fragment shows itself: a flat band's edge is infinitely steep
-    value = draw(form.inputs["input"], where, PIXEL)[:, :1]
+    value = np.ascontiguousarray(draw(form.inputs["input"], where, PIXEL)[:, :1])
     expected = ramp.colored(texture, value)[:, 0]
     # 1e-7 of a value between stops .15 apart, whose colours are 2 apart
     assert abs(shown[:, :3] - expected).max() <= TOLERANCE
@@ -253,6 +254,23 @@ def test_a_preset_has_the_formula_of_its_composition(draw, name):
     composed = draw(synthesis.closed_form(preset.composed(), solid=True), where, PIXEL)
     assert (shown == composed).all()
     assert shown[:, :3].std() > 0.05
+
+
+@pytest.mark.parametrize("name", sorted(FAMILIES["textures"]))
+def test_who_says_to_have_a_formula_has_one(name):
+    kind = FAMILIES["textures"][name]
+    noise = {"technique": "perlin"}
+    body = {"technique": name}
+    for field, info in kind.model_fields.items():
+        if info.is_required() and field != "technique":
+            body[field] = {"value": 0.5, "stops": STOPS, "asset": "0" * 64}.get(field, noise)
+    try:
+        texture = spec(body)
+    except ValidationError:
+        assert kind.has_formula is TextureSpec.has_formula  # needs more than a texture
+        return
+
+    assert texture.has_formula() == (synthesis.closed_form(texture, solid=False) is not None)
 
 
 def test_what_has_no_formula_leaves_none_to_what_holds_it():

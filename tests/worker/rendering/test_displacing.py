@@ -64,13 +64,14 @@ def test_the_channel_that_is_asked_for_is_read(channel: str, expected: float) ->
 
 
 def test_detail_finer_than_the_mesh_is_its_mean() -> None:
-    checks = np.indices((256, 256)).sum(axis=0) % 2
+    grain = np.random.default_rng(6).integers(0, 2, (256, 256))
 
-    coarse = moved(FLAT, checks, 2)
-    hard = moved(FLAT, checks, 2, filter="nearest")
+    coarse = moved(FLAT, grain, 2)
+    hard = moved(FLAT, grain, 2, filter="nearest")
 
-    np.testing.assert_allclose(coarse.positions[:, 2], 0.5, atol=1e-6)
-    assert set(np.unique(hard.positions[:, 2])) <= {0.0, 1.0}
+    # An edge spans 64 texels: a mean of so many squared deviates by 1 / 2 / 64.
+    assert np.abs(coarse.positions[:, 2] - 0.5).max() < 5 / 128
+    assert set(np.unique(hard.positions[:, 2])) == {0.0, 1.0}
 
 
 @pytest.mark.parametrize("wrap", ["repeat", "mirror", "clamp", "border"])

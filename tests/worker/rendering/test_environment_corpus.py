@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.ndimage import uniform_filter
 
 from tests.worker.rendering.studio import Studio
 from tests.worker.rendering.surroundings import CHALK, MIRROR, ball, ball_normals
@@ -15,7 +16,7 @@ from worker.images import image_io
 from worker.images.image import Image
 from worker.synthesis._harmonics import NAMES, irradiance
 
-pytestmark = [pytest.mark.corpus]
+pytestmark = [pytest.mark.corpus, pytest.mark.usefixtures("small_cubes")]
 
 TABLE_SCALE = 0.1002  # of the published coefficients of the Uffizi, by 5_reference/sh/HOW_TO_USE
 
@@ -63,69 +64,81 @@ def test_t36_the_uffizis_coefficients_are_the_published_ones(corpus: Path) -> No
     assert np.linalg.norm(found - table) < 0.01 * np.linalg.norm(table)
 
 
+def poles_on_rows(path: Path) -> np.ndarray:
+    """Read a picture as Mitsuba does, whose first and last rows are the poles themselves.
+
+    Read in our way, with poles on the edges, the Uffizi is 2 % brighter: the sky is its first rows.
+    """
+    pixels = picture(path).pixels[..., :3]
+    at = (np.arange(256) + 0.5) / 256 * (len(pixels) - 1)
+    upper = at.astype(int)
+    share = (at - upper)[:, None, None]
+    rows = (1 - share) * pixels[upper] + share * pixels[upper + 1]
+    return np.repeat(rows, 2, axis=1).astype(np.float32)
+
+
 @pytest.mark.gl
-def test_t36_a_chalk_ball_in_the_uffizi_is_the_tables_and_mitsubas(
-    studio: Studio, corpus: Path
-) -> None:
-    environment = texture(studio, corpus / "2_envmaps/probulator/uffizi.hdr")
+def test_t36_a_chalk_ball_in_the_uffizi_is_mitsubas(studio: Studio, corpus: Path) -> None:
     path = corpus / "5_reference/mitsuba_renders/mitsuba_uffizi_diffuse1.exr"
     reference = picture(path).pixels[..., :3].astype(np.float64)
     side = reference.shape[0]
-    normals, on_it = ball_normals(side)
-    on_it &= np.hypot(normals[..., 0], normals[..., 1]) < 0.97
+    environment = studio.texture(poles_on_rows(corpus / "2_envmaps/probulator/uffizi.hdr"))
 
-    seen = ball(studio, {"texture": environment}, CHALK, side)[on_it][:, :3]
-    smooth = ball(studio, {"texture": environment, "matt": "harmonics"}, CHALK, side)[on_it][:, :3]
+    seen = ball(studio, {"texture": environment}, CHALK, side)[..., :3]
 
-    # Mitsuba's picture is of 8192 samples a pixel: its noise is part of the difference.
-    mean = reference[on_it].mean()
-    assert np.sqrt(((seen - reference[on_it]) ** 2).mean()) < 0.01 * mean
-    assert np.abs(seen - reference[on_it]).max() < 0.03 * reference[on_it].max()
+    # The reference has 8192 samples a pixel and 2 % of noise; the mean of 5 x 5 pixels has 0.4 %.
+    normals, _ = ball_normals(side)
+    on_it = np.hypot(normals[..., 0], normals[..., 1]) < 0.85
+    smooth, wanted = (uniform_filter(p, (5, 5, 0))[on_it] for p in (seen, reference))
+    assert seen[on_it].mean() == pytest.approx(reference[on_it].mean(), rel=5e-3)
+    np.testing.assert_allclose(smooth, wanted, rtol=3e-2)
+    assert np.sqrt(((smooth - wanted) ** 2).mean()) < 8e-3 * wanted.mean()
+
+
+@pytest.mark.gl
+def test_t36_a_chalk_ball_by_nine_harmonics_is_the_published_table(
+    studio: Studio, corpus: Path
+) -> None:
+    path = corpus / "2_envmaps/probulator/uffizi.hdr"
+    environment = {"texture": texture(studio, path), "matt": "harmonics"}
+
+    seen = ball(studio, environment, CHALK, 64)[..., :3]
+
     # In the frame of the picture whose middle is -x, +z of the world is -x, and +x is -z.
+    normals, on_it = ball_normals(64)
+    on_it &= np.hypot(normals[..., 0], normals[..., 1]) < 0.97
     x, y, z = normals[on_it].T
     table = irradiance(uffizi_table(corpus), np.stack([-z, y, x], axis=1)) / math.pi
-    assert np.abs(smooth - table).max() < 0.03 * table.max()
+    assert np.abs(seen[on_it] - table).max() < 0.03 * table.max()
 
 
 @pytest.mark.gl
 def test_t07_a_mirror_ball_in_the_uffizi_is_mitsubas(studio: Studio, corpus: Path) -> None:
-    environment = texture(studio, corpus / "2_envmaps/probulator/uffizi.hdr")
     path = corpus / "5_reference/mitsuba_renders/mitsuba_uffizi_mirror.exr"
     reference = picture(path).pixels[..., :3].astype(np.float64)
     side = reference.shape[0]
-    normals, on_it = ball_normals(side)
-    on_it &= np.hypot(normals[..., 0], normals[..., 1]) < 0.9
+    environment = studio.texture(poles_on_rows(corpus / "2_envmaps/probulator/uffizi.hdr"))
 
-    seen = ball(studio, {"texture": environment}, MIRROR, side, supersampling=4)
+    seen = ball(studio, {"texture": environment}, MIRROR, side, supersampling=4)[..., :3]
 
-    error = seen[on_it][:, :3] - reference[on_it]
-    assert np.sqrt((error**2).mean()) < 0.05 * reference[on_it].std()
+    normals, _ = ball_normals(side)
+    on_it = np.hypot(normals[..., 0], normals[..., 1]) < 0.9
+    error = seen[on_it] - reference[on_it]
+    assert seen[on_it].mean() == pytest.approx(reference[on_it].mean(), rel=5e-3)
+    # 256 random samples a pixel
+    assert np.sqrt((error**2).mean()) < 0.025 * np.sqrt((reference[on_it] ** 2).mean())
 
 
 def test_t08_the_angular_probe_is_openimageios_latlong(corpus: Path) -> None:
     probe = picture(corpus / "2_envmaps/oiio/uffizi_probe-128.exr")
     reference = picture(corpus / "2_envmaps/oiio/uffizi_latlong_env-128.exr").pixels[..., :3]
     size = (reference.shape[1], reference.shape[0])
-    spec = {"technique": "convert_layout", "layout": {"technique": "angular_probe"}}
+    probe_layout = {"technique": "angular_probe", "centre": "+z"}
 
-    best = min(
-        np.sqrt(((made - reference) ** 2).mean())
-        for centre in ("-z", "+z")
-        for middle in ("+z", "+x", "-z", "-x")
-        for made in [
-            run(
-                {
-                    **spec,
-                    "layout": {"technique": "angular_probe", "centre": centre},
-                    "to": {"technique": "latlong", "centre": middle},
-                },
-                size,
-                probe,
-            ).image.pixels
-        ]
-    )
+    made = run({"technique": "convert_layout", "layout": probe_layout}, size, probe)
 
-    assert best < 0.03 * reference.mean()
+    error = made.image.pixels - reference
+    assert np.sqrt((error**2).mean()) < 0.03 * np.sqrt((reference**2).mean())
 
 
 def test_t20_ilms_cube_and_latlong_are_the_same_sphere(corpus: Path) -> None:
@@ -164,4 +177,4 @@ def test_t20_balls_that_wear_ilms_cube_and_latlong_look_the_same(
     normals, on_it = ball_normals(256)
     on_it &= np.hypot(normals[..., 0], normals[..., 1]) < 0.9
     flat, cube = (picture[on_it][:, 0] for picture in seen)
-    assert np.corrcoef(flat, cube)[0, 1] > 0.97
+    assert np.corrcoef(flat, cube)[0, 1] > 0.95

@@ -8,18 +8,16 @@ from worker.images.pyramids import mip_chain
 
 pytestmark = pytest.mark.gl
 
-SIDE = 512
-
 
 @pytest.fixture
 def level_coded(studio: Studio, monkeypatch: pytest.MonkeyPatch) -> dict[str, object]:
     """A 256 x 256 texture whose every texel is the number of its level."""
-    from worker.rendering import scene_builder  # noqa: PLC0415  needs OpenGL
+    from worker.images import stored_form  # noqa: PLC0415
 
     def numbered(pixels: np.ndarray) -> list[np.ndarray]:
         return [np.full_like(level, number) for number, level in enumerate(mip_chain(pixels))]
 
-    monkeypatch.setattr(scene_builder, "mip_chain", numbered)
+    monkeypatch.setattr(stored_form, "mip_chain", numbered)
     return studio.texture(np.full((256, 256), -1.0))
 
 
@@ -135,87 +133,6 @@ def test_a_mean_is_kept_by_every_filter_with_levels(studio: Studio) -> None:
         )
         # 256 texels per pixel: the coarsest level, one texel.
         np.testing.assert_allclose(read[..., 0], mean, rtol=1e-6)
-
-
-def triangle_wave(x: np.ndarray) -> np.ndarray:
-    """The integral from 0 of +1 on even and -1 on odd unit squares."""
-    return 1 - np.abs(1 - x % 2)
-
-
-def exact_floor(focal: float) -> np.ndarray:
-    """Each pixel's mean of the checkered floor at depth 1 below the eye, by T39's closed form.
-
-    Along a row the mean is exact; rows are cut into 512 lines.
-    """
-    rows = np.arange(SIDE // 2)[:, None] + (np.arange(512) + 0.5) / 512
-    z = focal / rows
-    sign = np.where(np.floor(z).astype(np.int64) % 2 == 0, 1.0, -1.0)
-    left = np.arange(SIDE) - SIDE / 2
-    means = np.empty((SIDE // 2, SIDE))
-    for row in range(SIDE // 2):
-        edges = z[row, :, None] * np.append(left, SIDE / 2) / focal
-        width = z[row, :, None] / focal
-        across = np.diff(triangle_wave(edges), axis=1) / width
-        means[row] = (across * sign[row, :, None]).mean(axis=0)
-    return means
-
-
-@pytest.fixture(scope="module")
-def exact() -> np.ndarray:
-    return 0.5 + 0.5 * exact_floor(200.0)
-
-
-def floor(studio: Studio, filter_name: str) -> np.ndarray:
-    """The same floor as a 512 x 512 texture of four squares, repeated 10000 times, to z = 10^4."""
-    sign = np.where(np.arange(512) < 256, 1.0, -1.0)
-    picture = studio.texture(0.5 + 0.5 * sign[::-1, None] * sign)
-    half = 10000.0
-    drawn = studio.draw(
-        {
-            "camera": {
-                "type": "perspective",
-                "fov_y": float(2 * np.arctan(SIDE / 2 / 200)),
-                "pose": {"eye": [0.0, 1.0, 0.0], "target": [0.0, 1.0, -1.0]},
-                "far": half,
-            },
-            "nodes": [
-                {
-                    "mesh": {
-                        "type": "plane",
-                        "facing": "+y",
-                        "width": 2 * half,
-                        "height": 2 * half,
-                    },
-                    "surface": {
-                        "technique": "unlit",
-                        "color": {
-                            "texture": picture,
-                            "filter": filter_name,
-                            "transform": {"scale": [half, half], "offset": [-half / 2, -half / 2]},
-                        },
-                    },
-                }
-            ],
-        },
-        (SIDE, SIDE),
-    )
-    assert np.isfinite(drawn).all()
-    return drawn[SIDE // 2 :, :, 0]
-
-
-def test_checkered_floor_to_the_horizon(studio: Studio, exact: np.ndarray) -> None:
-    # T39, without the row of the horizon, which the plane of finite size does not fill.
-    rms = {
-        name: float(np.sqrt(np.mean((floor(studio, name) - exact)[1:] ** 2)))
-        for name in ("nearest", "bilinear", "trilinear", "anisotropic")
-    }
-
-    assert rms["anisotropic"] <= 0.015
-    assert rms["anisotropic"] < rms["trilinear"] < rms["bilinear"] < rms["nearest"]
-
-
-def test_the_horizon_is_the_mean(studio: Studio) -> None:
-    assert floor(studio, "anisotropic")[1:3].mean() == pytest.approx(0.5, abs=1e-3)
 
 
 def test_a_round_footprint_reads_what_is_there(studio: Studio) -> None:

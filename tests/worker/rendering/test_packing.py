@@ -17,5 +17,5 @@ def test_every_layer_of_the_language_has_a_place() -> None:
 def test_what_must_not_be_averaged_is_not() -> None:
     averaged = {name for name, place in PLACES.items() if place.attachment < AVERAGED}
 
-    assert averaged == {PICTURE, "albedo", "coverage"}
+    assert averaged == {PICTURE, "albedo", "coverage", "shading_difference"}
     assert max(place.attachment for place in PLACES.values()) == ATTACHMENTS - 1 < 8

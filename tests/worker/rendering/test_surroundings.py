@@ -9,7 +9,7 @@ import pytest
 from tests.worker.rendering.studio import Studio
 from tests.worker.rendering.surroundings import CHALK, MIRROR, ball_normals, mirrored
 
-pytestmark = pytest.mark.gl
+pytestmark = [pytest.mark.gl, pytest.mark.usefixtures("small_cubes")]
 
 COLOURS = {
     "+x": [4.0, 0.0, 0.0],

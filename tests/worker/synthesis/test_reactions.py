@@ -256,3 +256,36 @@ def test_a_dish_at_rest_has_what_the_start_does_not_say():
 
     assert cells[:, 30, 30].tolist() == [9, 9, 3, 4, 5]
     assert cells[:, 0, 30].tolist() == [1, 2, 3, 4, 5]
+
+
+def elongation(picture):
+    """Return the spread of a picture's power up and down over that from side to side."""
+    energy = np.abs(np.fft.fft2(picture - picture.mean())) ** 2
+    frequencies = np.fft.fftfreq(len(picture))
+    return np.sqrt((energy.T @ frequencies**2).sum() / (energy @ frequencies**2).sum())
+
+
+@pytest.mark.parametrize("direction", [0.0, np.pi / 2])
+def test_t51_stripes_fall_into_line_with_the_direction(direction):
+    described = spec(
+        "schnakenberg", steps=3000, across=0.2, direction=direction, disturbance=0.1, b=0.75
+    )
+
+    picture = outcome(described, (64, 64), None).layers["u"].pixels[..., 0].astype(np.float64)
+
+    # Along u waves are long and frequencies low; across it, high
+    assert elongation(picture) ** (1 if direction == 0 else -1) > 1.8
+
+
+def test_t51_a_drop_of_each_chemical_spreads_by_its_own_tensor():
+    described = spec("schnakenberg", speed=0.0, steps=100, across=0.25, direction=0.6, range="raw")
+    start = np.zeros((2, 64, 64))
+    start[:, 32, 32] = 1
+
+    after = react(described, start)
+
+    u = np.arange(64.0) - 32
+    for drop, along in zip(after, (0.01, 0.2), strict=True):
+        tensor = along * (1 - 0.75 * np.sin(0.6) ** 2)
+        assert drop.sum() == pytest.approx(1, abs=1e-12)
+        assert (drop.sum(0) * u * u).sum() == pytest.approx(2 * 100 * tensor, abs=1e-6)

@@ -12,7 +12,7 @@ from pydantic import TypeAdapter
 import worker.synthesis
 from api_schemas.language import FAMILIES, Texture
 from worker.images.image import Image
-from worker.synthesis import synthesize, techniques, warm
+from worker.synthesis import synthesize, synthesize_volume, techniques, warm
 
 ASSET = {"technique": "image", "asset": "0" * 64}
 GREY = [{"position": 0.0, "color": [0.0] * 3}, {"position": 1.0, "color": [1.0] * 3}]
@@ -84,6 +84,16 @@ def test_after_warming_no_request_compiles_anything():
         body = ramp(ASSET) | {"interpolation": interpolation}
         synthesize(spec(body), (40, 30), lambda spec, meaning: picture)
     synthesize(spec({"technique": "perlin", "octaves": 4, "fade": "linear"}), (2500, 70), None)
+    for fields in ({"sum": "billow"}, {"depth": 0.5}, {"time": 0.5}, {"output": "slope"}):
+        synthesize(spec({"technique": "perlin", **fields}), (40, 30), None)
+    for cut in ("plane", "slice", "projected"):
+        for tilt in ([0.0, 0.0], [0.5, 0.5]):
+            body = {"technique": "wavelet", "cut": cut, "tilt": tilt}
+            synthesize(spec(body), (80, 70), None)
+    for name in ("gabor", "perlin_curve", "gardner_product", "marble", "wood", "worley", "granite"):
+        synthesize(spec({"technique": name}), (40, 30), None)
+    for name in ("perlin", "wavelet", "gardner_product", "marble", "wood", "worley", "granite"):
+        synthesize_volume(spec({"technique": name}), (12, 10, 8))
 
     assert "ramp._fill_ramp" in before
     assert before["ramp._fill_ramp"] == 1

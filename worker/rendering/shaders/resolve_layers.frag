@@ -1,14 +1,17 @@
 #version 410 core
 // The attachments of lib/layers.glsl, behind the picture.
-uniform sampler2D samples_0, samples_1, samples_2, samples_3, samples_4, samples_5, samples_6;
+uniform sampler2D samples_0, samples_1, samples_2, samples_3, samples_4, samples_5, samples_6,
+    samples_7;
 uniform int samples_per_side;
+uniform int apron;  // pixels more on every side
 layout(location = 0) out vec4 picture;
 layout(location = 1) out vec4 albedo;
 layout(location = 2) out vec4 normal_and_depth;
 layout(location = 3) out vec4 geometric_normal_and_object;
 layout(location = 4) out vec4 position_and_material;
 layout(location = 5) out vec4 tangent;
-layout(location = 6) out vec4 uv;
+layout(location = 6) out vec4 uv_and_density;
+layout(location = 7) out vec4 footprint;
 
 const float NOWHERE = 1e10;     // the depth where nothing is
 const float FARTHEST = 3.4e38;  // what is drawn is nearer
@@ -16,7 +19,7 @@ const float FARTHEST = 3.4e38;  // what is drawn is nearer
 // Light is the mean of a pixel's samples, row by row. The mean of two things is none of them: what
 // is known of a thing is that of the nearest sample that shows one, the first of equally near ones.
 void main() {
-    ivec2 corner = ivec2(gl_FragCoord.xy) * samples_per_side;
+    ivec2 corner = (ivec2(gl_FragCoord.xy) + apron) * samples_per_side;
     vec4 light = vec4(0.0), reflected = vec4(0.0);
     ivec2 nearest = corner;
     float depth = FARTHEST;
@@ -39,5 +42,6 @@ void main() {
     geometric_normal_and_object = texelFetch(samples_3, nearest, 0);
     position_and_material = texelFetch(samples_4, nearest, 0);
     tangent = texelFetch(samples_5, nearest, 0);
-    uv = texelFetch(samples_6, nearest, 0);
+    uv_and_density = texelFetch(samples_6, nearest, 0);
+    footprint = texelFetch(samples_7, nearest, 0);
 }

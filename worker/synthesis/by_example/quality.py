@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy import ndimage
 
+from worker.synthesis.by_example.copies import continued, copied_so_far
 from worker.synthesis.by_example.exact import nearest_distances
 from worker.synthesis.by_example.pyramid import halved
 from worker.synthesis.by_example.windows import whole_windows
@@ -48,11 +49,11 @@ def quality(place: Integers, exemplar: Exemplar) -> Figures:
     rows, columns = np.moveaxis(place, -1, 0)
     made = rows >= 0
     features = exemplar.features[rows, columns]
-    across, down = _continued(place)
+    across, down = continued(place)
     figures: Figures = {
         "coherent": _share(_either(across, down) & made, made),
         "verbatim": _share(_in_windows(across, down), made),
-        "longest_run": max(_longest(across), _longest(down.T)),
+        "longest_run": int(max(copied_so_far(across).max(), copied_so_far(down.T).max())),
         "pieces": _pieces(across, down, made),
         "repetition": repetition(features),
         "exemplar_repetition": repetition(exemplar.features),
@@ -97,15 +98,6 @@ def seam(features: Bytes) -> float:
     return round(max(ratios), 4)
 
 
-def _continued(place: Integers) -> tuple[Mask, Mask]:
-    """Return which pixels continue their left, and which their upper neighbour."""
-    made = place[..., 0] >= 0
-    across, down = np.zeros(made.shape, bool), np.zeros(made.shape, bool)
-    across[:, 1:] = (np.diff(place, axis=1) == (0, 1)).all(axis=-1) & made[:, 1:] & made[:, :-1]
-    down[1:] = (np.diff(place, axis=0) == (1, 0)).all(axis=-1) & made[1:] & made[:-1]
-    return across, down
-
-
 def _either(across: Mask, down: Mask) -> Mask:
     either = across | down
     return np.asarray(either)
@@ -125,13 +117,6 @@ def _in_windows(across: Mask, down: Mask) -> Mask:
     return np.asarray(
         ndimage.maximum_filter(spread, _WINDOW, origin=(origin, origin), mode="constant")
     )
-
-
-def _longest(continued: Mask) -> int:
-    """Return the longest line of pixels along axis 1 in which each continues the one before."""
-    places = np.arange(continued.shape[1])
-    breaks = np.maximum.accumulate(np.where(continued, 0, places), axis=1)
-    return int((places - breaks).max()) + 1
 
 
 def _pieces(across: Mask, down: Mask, made: Mask) -> int:

@@ -6,6 +6,7 @@ struct Lookup {
     vec2 size;      // of the picture's level 0 in texels
     vec2 across_x;  // texels from this pixel's middle to the next one's on the right
     vec2 across_y;  // and to the one above
+    vec2 period;    // of the wrap in pictures: 1 repeated, 2 mirrored, 0 neither
 };
 
 // The footprint is that of the coordinates before they are wrapped, so that no seam harms it.
@@ -17,6 +18,7 @@ Lookup look_up(Footprint coordinates, mat3 transform, vec4 period, vec2 size) {
         place - period.xy * floor(place * period.zw),
         size,
         linear * coordinates.across_x * size,
-        linear * coordinates.across_y * size
+        linear * coordinates.across_y * size,
+        period.xy
     );
 }

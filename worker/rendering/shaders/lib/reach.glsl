@@ -1,5 +1,8 @@
 #include "lib/footprint.glsl"
 
+// 1 / w where the surface is, linear on the screen. A plane without end sets its own.
+float inverse_w = gl_FragCoord.w;
+
 // A vector at a pixel's middle, and its change to the next pixels' middles.
 struct Reach {
     vec3 place;
@@ -11,7 +14,6 @@ struct Reach {
 // that their differences between pixels are derivatives, and the quotient rule gives those of the
 // value at this very pixel (Heckbert 1989); a plain difference would be one between two pixels.
 Reach reach_of(vec3 value) {
-    float inverse_w = gl_FragCoord.w;
     vec3 scaled = value * inverse_w;
     return Reach(
         value,

@@ -10,3 +10,4 @@ struct SurfacePoint {
     vec4 color;            // the mesh's, white if it has none
     vec2 uv[4];            // the mesh's texture coordinates, each set
 };
+
