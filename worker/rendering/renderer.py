@@ -131,7 +131,6 @@ def render(
         tangents="tangent" in output.layers,
         turns=turns,
     )
-    built = with_surroundings(built, engine.renderer, engine.targets, engine.builder, textures)
     timings = {
         "build_ms": _milliseconds(time.perf_counter() - start),
         "draw_ms": 0.0,
