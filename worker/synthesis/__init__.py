@@ -44,8 +44,8 @@ from api_schemas.textures.image import ImageSpec
 from api_schemas.walk import is_in_space, meaning_of
 from worker.closed_form import ClosedForm
 from worker.images.volume import Volume
+from worker.outcome import Outcome
 from worker.stages import silent
-from worker.synthesis.outcome import Outcome
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping

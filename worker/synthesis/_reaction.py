@@ -8,6 +8,7 @@ import numpy as np
 
 from worker.errors import RenderError
 from worker.images.image import Image
+from worker.outcome import Outcome
 from worker.stages import silent
 from worker.synthesis._directions import angles_of, spread_along, tensors_along
 from worker.synthesis._dish import (
@@ -21,7 +22,6 @@ from worker.synthesis._dish import (
 )
 from worker.synthesis._pointwise import held
 from worker.synthesis._resample import resample
-from worker.synthesis.outcome import Outcome
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping

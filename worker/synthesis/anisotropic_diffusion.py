@@ -15,12 +15,12 @@ from api_schemas.textures.anisotropic_diffusion import AnisotropicDiffusionSpec
 from api_schemas.textures.constant import ConstantSpec
 from worker.images.image import Image
 from worker.numba_kernel import kernel
+from worker.outcome import Outcome
 from worker.stages import silent
 from worker.synthesis._directions import angles_of, inflow_at, tensors_along
 from worker.synthesis._dish import at, channels, fill_rim, parameter_rows
 from worker.synthesis._pointwise import held
 from worker.synthesis._resample import resample
-from worker.synthesis.outcome import Outcome
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

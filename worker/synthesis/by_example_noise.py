@@ -15,11 +15,11 @@ import numpy as np
 from scipy.special import ndtr, ndtri
 
 from worker.images.image import Image
+from worker.outcome import Outcome
 from worker.synthesis._counter_hash import uniforms
 from worker.synthesis._resample import resample
 from worker.synthesis.by_example.exemplar import Exemplar
 from worker.synthesis.by_example.windows import fitting_side, whole_windows
-from worker.synthesis.outcome import Outcome
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

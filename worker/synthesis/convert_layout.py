@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from worker.images.image import Image
+from worker.outcome import Outcome
 from worker.synthesis import _sphere
 from worker.synthesis._conversion import converted
 from worker.synthesis._environment import harmonics_of, taken, told
-from worker.synthesis.outcome import Outcome
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

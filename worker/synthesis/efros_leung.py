@@ -31,8 +31,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from worker.outcome import Outcome
     from worker.stages import Report
-    from worker.synthesis.outcome import Outcome
 
     Bytes = NDArray[np.uint8]
     Mask = NDArray[np.bool_]

@@ -25,13 +25,13 @@ import numpy as np
 from api_schemas.dishes import mapped
 from api_schemas.textures.gray_scott import GrayScottSpec
 from worker.images.image import Image
+from worker.outcome import Outcome
 from worker.stages import silent
 from worker.synthesis._counter_hash import uniforms
 from worker.synthesis._dish import channels, parameter_rows
 from worker.synthesis._gray_scott_steps import BORDERS, STEPS_AT_ONCE, advance
 from worker.synthesis._reaction import told
 from worker.synthesis._resample import resample
-from worker.synthesis.outcome import Outcome
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from worker.images.image import Image
+from worker.outcome import Outcome
 from worker.synthesis._channels import matched
 from worker.synthesis._resample import resample
 from worker.synthesis.by_example.exemplar import Exemplar
@@ -19,7 +20,6 @@ from worker.synthesis.by_example.features import FeatureSpace, with_channels
 from worker.synthesis.by_example.optimisation import optimise
 from worker.synthesis.by_example.result import finished, gathered
 from worker.synthesis.by_example.task import Task
-from worker.synthesis.outcome import Outcome
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

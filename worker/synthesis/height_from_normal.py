@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from worker.images.image import Image
+from worker.outcome import Outcome
 from worker.synthesis._pointwise import held, wide
-from worker.synthesis.outcome import Outcome
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

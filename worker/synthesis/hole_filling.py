@@ -13,8 +13,8 @@ if TYPE_CHECKING:
 
     from api_schemas.textures.hole_filling import HoleFillingSpec
     from worker.images.image import Image
+    from worker.outcome import Outcome
     from worker.stages import Report
-    from worker.synthesis.outcome import Outcome
 
 
 def synthesize(

@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 
     from api_schemas.textures.image_shuffling import ImageShufflingSpec
     from worker.images.image import Image
+    from worker.outcome import Outcome
     from worker.stages import Report
-    from worker.synthesis.outcome import Outcome
 
     Mask = NDArray[np.bool_]
 

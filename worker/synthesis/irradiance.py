@@ -9,12 +9,12 @@ import numpy as np
 
 from worker import layouts
 from worker.images.image import Image
+from worker.outcome import Outcome
 from worker.synthesis import _pieces, _sphere
 from worker.synthesis._environment import harmonics_of, taken, told
 from worker.synthesis._harmonics import irradiance
 from worker.synthesis._lobes import phong
 from worker.synthesis._prefilter import Cubes, probes
-from worker.synthesis.outcome import Outcome
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

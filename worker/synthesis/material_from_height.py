@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from worker.images.image import Image
+from worker.outcome import Outcome
 from worker.synthesis._horizons import sky_seen
 from worker.synthesis._horizons import warm as warm_horizons
 from worker.synthesis._pointwise import held, wide
-from worker.synthesis.outcome import Outcome
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

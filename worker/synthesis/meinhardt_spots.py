@@ -16,9 +16,9 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from worker.images.image import Image
+    from worker.outcome import Outcome
     from worker.stages import Report
     from worker.synthesis._dish import Cells, Rows
-    from worker.synthesis.outcome import Outcome
 
 _LEAST = 1e-9
 """Less of an inhibitor counts as this much: where there is none, nothing becomes infinite."""

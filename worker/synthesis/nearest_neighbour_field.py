@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from worker.images.image import Image
+from worker.outcome import Outcome
 from worker.synthesis.by_example.exemplar import Exemplar
 from worker.synthesis.by_example.field_search import exact_field, quick_field
 from worker.synthesis.by_example.result import finished, nearest
 from worker.synthesis.by_example.windows import fitting_side
-from worker.synthesis.outcome import Outcome
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -14,9 +14,9 @@ import numpy as np
 
 from worker.images.image import Image
 from worker.images.sampling import sample
+from worker.outcome import Outcome
 from worker.synthesis._pointwise import held, wide
 from worker.synthesis.height_from_normal import integrated, slopes
-from worker.synthesis.outcome import Outcome
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

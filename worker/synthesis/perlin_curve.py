@@ -11,9 +11,9 @@ import numpy as np
 
 from worker.images.image import Image
 from worker.numba_kernel import parallel_kernel, prange
+from worker.outcome import Outcome
 from worker.synthesis._counter_hash import hashes
 from worker.synthesis._perlin_points import FADES
-from worker.synthesis.outcome import Outcome
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

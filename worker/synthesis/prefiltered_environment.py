@@ -8,12 +8,12 @@ import numpy as np
 
 from worker import layouts
 from worker.images.image import Image
+from worker.outcome import Outcome
 from worker.synthesis import _pieces, _sphere, _spiral
 from worker.synthesis._conversion import converted
 from worker.synthesis._environment import taken
 from worker.synthesis._lobes import SMOOTHEST, Lobe, ggx, phong
 from worker.synthesis._prefilter import Cubes, Gatherer, probes
-from worker.synthesis.outcome import Outcome
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

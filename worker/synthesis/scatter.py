@@ -13,9 +13,9 @@ import numpy as np
 from api_schemas.textures.scatter import TRIES_MAX
 from worker.images.image import Image
 from worker.numba_kernel import kernel
+from worker.outcome import Outcome
 from worker.synthesis._counter_hash import uniforms
 from worker.synthesis._pointwise import wide
-from worker.synthesis.outcome import Outcome
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

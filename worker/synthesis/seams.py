@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from worker.images.image import Image
-from worker.synthesis.outcome import Outcome
+from worker.outcome import Outcome
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

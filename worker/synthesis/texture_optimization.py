@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from worker.outcome import Outcome
     from worker.preview import Progress
-    from worker.synthesis.outcome import Outcome
 
     Bytes = NDArray[np.uint8]
     Integers = NDArray[np.int32]

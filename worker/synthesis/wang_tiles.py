@@ -15,11 +15,11 @@ import numpy as np
 
 from api_schemas.textures.wang_tiles import TRIES
 from worker.images.image import Image
+from worker.outcome import Outcome
 from worker.synthesis._counter_hash import hashes
 from worker.synthesis._resample import resample
 from worker.synthesis._seams import least_seam
 from worker.synthesis._seams import warm as warm_seams
-from worker.synthesis.outcome import Outcome
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

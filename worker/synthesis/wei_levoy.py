@@ -27,8 +27,8 @@ if TYPE_CHECKING:
 
     from api_schemas.textures.wei_levoy import WeiLevoySpec
     from worker.images.image import Image
+    from worker.outcome import Outcome
     from worker.stages import Report
-    from worker.synthesis.outcome import Outcome
 
     Bytes = NDArray[np.uint8]
     Mask = NDArray[np.bool_]

@@ -11,8 +11,8 @@ from pydantic import TypeAdapter
 from api_schemas.language import Layout, Texture
 from worker import layouts
 from worker.images.image import Image
+from worker.outcome import Outcome
 from worker.stages import silent
-from worker.synthesis.outcome import Outcome
 
 TEXTURE = TypeAdapter(Texture)
 ASSET = {"technique": "image", "asset": "0" * 64}

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from worker.images.image import Image
+from worker.outcome import Outcome
 from worker.synthesis._channels import matched
 from worker.synthesis._resample import resample
 from worker.synthesis.by_example.quality import quality
-from worker.synthesis.outcome import Outcome
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -9,7 +9,7 @@ from api_schemas.textures.constant import ConstantSpec
 from api_schemas.textures.levels import LevelsSpec
 from worker import synthesis
 from worker.images.image import Image
-from worker.synthesis.outcome import Outcome
+from worker.outcome import Outcome
 
 
 def grey(width, height):
