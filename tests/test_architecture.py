@@ -119,3 +119,14 @@ def test_the_changelog_tells_of_this_version() -> None:
     version = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["version"]
 
     assert re.search(rf"^## \[?{re.escape(version)}\b", (ROOT / "CHANGELOG.md").read_text(), re.M)
+
+
+def test_each_row_of_the_techniques_leads_to_its_test_and_its_example() -> None:
+    page = (ROOT / "ARCHITECTURE.md").read_text().partition("\n## Where each technique is\n")[2]
+    rows = re.findall(r"^\| ([TX]\d\d[^|]*) \|[^|]+\| `([^`]+)` \|(?: `(\w+)`)? \|$", page, re.M)
+    written = examples()
+
+    assert len(rows) > 70
+    for name, test, example in rows:
+        assert (ROOT / "tests" / f"{test}.py").is_file(), name
+        assert example in written or name == "X18", name
