@@ -48,6 +48,7 @@ TABLE: Final[Mapping[str, tuple[int, str]]] = {
     "environment_texels": (409, "Numbers of an environment are infinite or none"),
     "exemplar_unusable": (409, "There is nothing to copy"),
     "layout_without_direction": (409, "A layout needs coordinates that are a direction"),
+    "layout_mismatch": (409, "A picture does not have the shape of its layout"),
     "layout_impossible": (409, "A layout cannot be so"),
     "formula_missing": (409, "A texture has no formula where one is asked for"),
     "coordinates_unsuited": (409, "These coordinates cannot be used there"),

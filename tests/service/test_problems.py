@@ -1,9 +1,13 @@
+import re
+from pathlib import Path
+
 import pytest
 
 from service.problems import TABLE, ProblemError
 
 PERLIN = {"texture": {"technique": "perlin"}}
 SECRET = "hunter2"
+ROOT = Path(__file__).parents[2]
 
 
 @pytest.mark.parametrize("code", TABLE)
@@ -117,3 +121,17 @@ def test_a_full_queue_is_429_and_says_when_to_come_back(make_client):
     for answer in refused:
         assert (answer.status_code, answer.json()["code"]) == (429, "queue_full")
         assert int(answer.headers["retry-after"]) >= 1
+
+
+def test_every_reason_that_anything_gives_is_in_the_table():
+    """A code that is not would be an error of ours where the request has one."""
+    said = set()
+    for folder in ("api_schemas", "worker"):
+        for path in (ROOT / folder).rglob("*.py"):
+            source = path.read_text()
+            said |= set(re.findall(r'\b(?:Obstacle|Refusal)\(\s*"(\w+)"', source))
+            said |= set(re.findall(r'\bcode\b(?:: \w+)? ?= ?"(\w+)"', source))
+            said |= set(re.findall(r'"code": "(\w+)"', source))
+
+    assert len(said) > 25
+    assert said <= set(TABLE)
