@@ -8,6 +8,8 @@
                                 | transform_singular | model_part_unknown
                                 | coordinates_missing | coordinates_unsuited
                                 | over_budget | environment_texels | exemplar_unusable
+                                | layout_mismatch | layout_without_direction | formula_missing
+                                | no_steady_state | reaction_diverged
 
 A message says what is wrong, which value and which bound; it never repeats the input.
 `as_failure` is how an error crosses processes: as data, never as a pickled exception.

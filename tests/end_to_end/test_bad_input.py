@@ -10,7 +10,7 @@ from tests.examples import ASSETS, EXAMPLES
 
 pytestmark = [pytest.mark.end_to_end, pytest.mark.gl]
 
-LABEL = ASSETS[0].read_bytes()
+LABEL = next(path for path in ASSETS if path.name == "label.png").read_bytes()
 CAN = json.loads((EXAMPLES / "renders/soda_can.json").read_text())
 GOOD = {"texture": {"technique": "checkerboard"}, "output": {"size": [16, 16]}}
 

@@ -17,7 +17,7 @@ from worker.images import image_io
 
 KEPT = {
     "metallic_roughness": "polished_to_rough",
-    "phong": "round_labels",
+    "phong": "soda_can",
     "unlit": "labelled_can",
     "uv": "soda_can",
 }

@@ -90,7 +90,7 @@ def test_a_mistake_in_a_texture_within_a_texture_is_told_once():
 
 
 def test_an_unknown_or_missing_technique_is_told_at_its_key():
-    assert texture({"technique": "marble"}) == {"/texture/technique": "not_a_choice"}
+    assert texture({"technique": "no_such"}) == {"/texture/technique": "not_a_choice"}
     assert texture({"technique": 3}) == {"/texture/technique": "not_a_choice"}
     assert texture({}) == {"/texture/technique": "missing"}
     assert texture([]) == {"/texture": "wrong_type"}

@@ -133,6 +133,8 @@ def test_one_layer_is_that_of_all(studio: Studio) -> None:
     every = studio.layers(scene, ALL, (50, 40), 2)
 
     for name in ALL:
+        if name.startswith("crypto_"):
+            continue  # several pictures of its own each: tests/worker/rendering/test_cryptomatte.py
         alone = studio.layers(scene, [name], (50, 40), 2)
         assert list(alone) == ["picture", name]
         np.testing.assert_array_equal(alone[name], every[name])

@@ -108,7 +108,7 @@ def test_a_camera_that_no_model_has_is_told() -> None:
 def staged(given: Any, models: Any) -> tuple[list[Light], list[str]]:
     from worker.rendering.staging import lights_of  # noqa: PLC0415  needs OpenGL
 
-    found, warnings = lights_of(given, models, IDENTITY)
+    found, warnings = lights_of(given, models, IDENTITY, surrounded=False)
     return list(found), list(warnings)
 
 
