@@ -125,11 +125,6 @@ else:
 
 
 def _complete() -> None:
-    """Give every module the names it speaks of, and complete what others inherit from.
-
-    A spec completes itself when it is first needed, by the names in its module: to complete them
-    all here, each with the whole language in it, took seconds.
-    """
     names = {
         name: globals()[name]
         for name in (
@@ -145,13 +140,12 @@ def _complete() -> None:
     } | {model.__name__: model for model in (LightMap, NormalMap, BumpMap, HeightMap, ParallaxMap)}
     names["TangentFrames"] = TangentFrames
     members = [spec for family in FAMILIES.values() for spec in family.values()]
-    bases: list[type[Schema]] = [Map, ScaledMap, ColorMap, LightMap, NumberMap, NormalMap]
-    bases += [ReliefMap, BumpMap, HeightMap, ParallaxMap, Displacement, SurfaceSpec]
-    bases += [ParameterMap, *ParameterMap.__subclasses__(), CellsSpec, DishSpec, ReactionSpec]
-    for model in (*bases, *members):
-        vars(importlib.import_module(model.__module__)).update(names)
-    for model in bases:
-        model.model_rebuild(force=True)
+    models: list[type[Schema]] = [Map, ScaledMap, ColorMap, LightMap, NumberMap, NormalMap]
+    models += [ReliefMap, BumpMap, HeightMap, ParallaxMap, Displacement, SurfaceSpec]
+    models += [ParameterMap, *ParameterMap.__subclasses__(), CellsSpec, DishSpec, ReactionSpec]
+    for model in (*models, *members):
+        module = importlib.import_module(model.__module__)
+        model.model_rebuild(force=True, _types_namespace={**vars(module), **names})
 
 
 _complete()

@@ -10,7 +10,8 @@ import pytest
 
 from tests.running_service import ROOT
 
-pytestmark = [pytest.mark.end_to_end, pytest.mark.gl]
+# It compiles every kernel anew, which takes two minutes: left to `make test-all`.
+pytestmark = [pytest.mark.end_to_end, pytest.mark.gl, pytest.mark.contract]
 
 SPEC = '''
 """Bands of two greys."""
