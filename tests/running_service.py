@@ -14,7 +14,7 @@ import httpx
 
 ROOT = Path(__file__).resolve().parent.parent
 WARM = ROOT / ".cache" / "cache"
-SECONDS_TO_START = 120
+SECONDS_TO_START = 300
 
 
 @dataclass

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.contract.fuzzer import fuzz
+from tests.contract.fuzzer import fuzz, short_document
 from tests.running_service import RunningService
 
 pytestmark = [pytest.mark.contract, pytest.mark.gl, pytest.mark.timeout(900)]
@@ -30,7 +30,7 @@ def failures(service: RunningService) -> list[dict[str, str]]:
 
 
 def test_the_bare_fuzzer_finds_nothing(service: RunningService, tmp_path: Path) -> None:
-    """`st run` and the address of the document, as a stranger would type it.
+    """`st run` and the document, as a stranger would type it, with a few of each family.
 
     Left out are the three operations that take scenes: its systematic phase goes through each field
     of every texture in every place a surface can wear one, and takes a quarter of an hour on each.
@@ -40,7 +40,12 @@ def test_the_bare_fuzzer_finds_nothing(service: RunningService, tmp_path: Path) 
     ]
 
     code, told = fuzz(
-        f"{service.url}/openapi.json", *scenes, hooks=False, folder=tmp_path, seconds=400
+        short_document(tmp_path),
+        f"--url={service.url}",
+        *scenes,
+        hooks=False,
+        folder=tmp_path,
+        seconds=400,
     )
 
     assert code == 0, told
@@ -54,7 +59,8 @@ def test_a_fuzzer_that_knows_pictures_finds_nothing(
 ) -> None:
     """Uploads that can be used lead to assets that can be fetched, used and deleted."""
     code, told = fuzz(
-        f"{service.url}/openapi.json",
+        short_document(tmp_path),
+        f"--url={service.url}",
         "--phases=examples,fuzzing,stateful",
         "--seed=1",
         "--generation-deterministic",

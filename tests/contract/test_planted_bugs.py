@@ -10,7 +10,7 @@ import uvicorn
 
 from service.app import create_app
 from service.settings import Settings
-from tests.contract.fuzzer import ROOT, fuzz
+from tests.contract.fuzzer import fuzz, short_document
 from tests.contract.planted_bugs import BUGS, Bug, Planted
 from tests.toy_service import toy_engine, toy_executors, warmed
 
@@ -57,7 +57,7 @@ def search(url: str, name: str, folder: Path) -> tuple[int, str]:
     bug = (BUGS | NO_BUG)[name]
     names = OPERATIONS.get(bug.operation, [bug.operation])
     return fuzz(
-        ROOT / "openapi.json",
+        short_document(folder),
         f"--url={url}/{slug(name)}",
         "--seed=1",
         "--generation-deterministic",
