@@ -37,7 +37,9 @@ def fuzz(
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "NO_COLOR": "1", "COLUMNS": "100"}
     if hooks:
         environment["SCHEMATHESIS_HOOKS"] = "tests.contract.hooks"
-    command = [sys.executable, "-m", "schemathesis.cli", "run", str(document), *options]
+    # The first upload waits for a child to start, which on a busy machine takes its time.
+    patient = "--request-timeout=60"
+    command = [sys.executable, "-m", "schemathesis.cli", "run", str(document), patient, *options]
     done = subprocess.run(
         command,
         cwd=folder,
