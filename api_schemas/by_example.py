@@ -1,6 +1,7 @@
 """What the specs share that make new texture out of an exemplar's pixels."""
 
 import math
+from abc import abstractmethod
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Annotated, ClassVar
 
@@ -51,6 +52,7 @@ class FromExemplarSpec(TextureSpec):
         """Of an exemplar of functions; where its size is known, `cost_from` knows better."""
         return self.cost_from({"exemplar": math.prod(self.exemplar_size or FUNCTION_SIZE)}, pixels)
 
+    @abstractmethod
     def cost_from(self, within: Mapping[str, int], pixels: int) -> Cost:
         """Estimate the technique alone.
 
@@ -58,7 +60,6 @@ class FromExemplarSpec(TextureSpec):
             within: How many pixels each nested texture has, by field name; at least the exemplar's.
             pixels: How many the picture has that is asked for.
         """
-        raise NotImplementedError
 
 
 class GrownSpec(FromExemplarSpec):

@@ -1,6 +1,7 @@
 """Textures that chemicals leave in a dish of grid cells: what all of them have in common."""
 
 import itertools
+from abc import abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
@@ -119,17 +120,17 @@ class ReactionSpec(DishSpec):
         "numbers themselves; layers always do.",
     )
 
+    @abstractmethod
     def shown(self) -> str:
         """Return the chemical of the picture."""
-        raise NotImplementedError
 
+    @abstractmethod
     def rest(self, values: Mapping[str, float]) -> list[float] | None:
         """Return the steady state without diffusion, or None where there is none."""
-        raise NotImplementedError
 
+    @abstractmethod
     def rates(self, state: Sequence[float], values: Mapping[str, float]) -> list[float]:
         """Return how fast each chemical changes by reaction alone."""
-        raise NotImplementedError
 
     def middle(self) -> dict[str, float]:
         """Return the parameters, each in the middle of its range."""

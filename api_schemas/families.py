@@ -5,6 +5,7 @@ A technique's name is written once: its module's name, its `technique` literal, 
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, ClassVar, Literal, Self
@@ -98,9 +99,9 @@ class PresetSpec(TextureSpec):
     solid: ClassVar[bool] = True
     pointwise: ClassVar[bool] = True
 
+    @abstractmethod
     def composed(self) -> TextureSpec:
         """Return the composition, of solid textures."""
-        raise NotImplementedError
 
     def has_formula(self) -> bool:
         """Whether all that it is composed of do."""

@@ -1,5 +1,6 @@
 """The house rules that no linter checks."""
 
+import inspect
 import re
 import subprocess
 import sys
@@ -76,6 +77,11 @@ def test_the_map_of_the_architecture_is_that_of_the_house() -> None:
 @pytest.mark.parametrize(("family", "technique"), TECHNIQUES)
 def test_a_technique_has_its_implementation(family: str, technique: str) -> None:
     assert (ROOT / IMPLEMENTATIONS[family].format(technique)).is_file()
+
+
+@pytest.mark.parametrize(("family", "technique"), TECHNIQUES)
+def test_a_technique_says_all_that_its_family_asks(family: str, technique: str) -> None:
+    assert not inspect.isabstract(FAMILIES[family][technique])
 
 
 def test_a_layout_is_known_to_numpy_and_to_shaders() -> None:
