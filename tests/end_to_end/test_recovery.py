@@ -56,7 +56,7 @@ def busiest(pids):
 
 
 def test_a_killed_child_does_its_job_again(make_service):
-    service = make_service()
+    service = make_service(slots="1")
     with service.client() as client:
         job = client.post("/v1/renders", json=SLOW).json()["id"]
         wait_for(client, job, {"running"})

@@ -155,12 +155,12 @@ def _fill_block(
                     gradient_x, gradient_y, first, cell, layer, period, table, gradients
                 )
                 _tabulate_level(level[lower], columns, x, x_blends, gradient_x)
-                _tabulate_slope(slope[lower], columns, x_blends, gradient_y)
+                tabulate_slope(slope[lower], columns, x_blends, gradient_y)
             _find_gradients(
                 gradient_x, gradient_y, first, cell + 1, layer, period, table, gradients
             )
             _tabulate_level(level[1 - lower], columns, x, x_blends, gradient_x)
-            _tabulate_slope(slope[1 - lower], columns, x_blends, gradient_y)
+            tabulate_slope(slope[1 - lower], columns, x_blends, gradient_y)
             combine(
                 terms, level[lower], slope[lower], level[1 - lower], slope[1 - lower], weight, bias
             )
@@ -206,9 +206,10 @@ def _tabulate_level(
 
 
 @kernel
-def _tabulate_slope(
+def tabulate_slope(
     slope: Floats, columns: NDArray[np.uint32], x_blends: Floats, gradient_y: Floats
 ) -> None:
+    """Write the slope of a row of lattice points along v at each column."""
     next_gradient_y = gradient_y[1:]
     for c in range(len(slope)):
         left = gradient_y[columns[c]]

@@ -24,6 +24,7 @@ from worker.synthesis._perlin_grid import (
     combine,
     offsets_and_blends,
     set_row,
+    tabulate_slope,
 )
 from worker.synthesis._perlin_points import hashed
 
@@ -148,7 +149,7 @@ def _fill_slice(
                     gradients,
                 )
                 _tabulate_level(level[target], columns, x, x_blends, along_u, still)
-                _tabulate_slope(slope[target], columns, x_blends, along_v)
+                tabulate_slope(slope[target], columns, x_blends, along_v)
             combine(
                 terms, level[lower], slope[lower], level[1 - lower], slope[1 - lower], weight, bias
             )
@@ -216,13 +217,3 @@ def _tabulate_level(
         left = along_u[columns[c]] * x[c] + still[columns[c]]
         right = next_along_u[columns[c]] * (x[c] - np.float32(1)) + next_still[columns[c]]
         level[c] = left + x_blends[c] * (right - left)
-
-
-@kernel
-def _tabulate_slope(
-    slope: Floats, columns: NDArray[np.uint32], x_blends: Floats, along_v: Floats
-) -> None:
-    next_along_v = along_v[1:]
-    for c in range(len(slope)):
-        left = along_v[columns[c]]
-        slope[c] = left + x_blends[c] * (next_along_v[columns[c]] - left)
