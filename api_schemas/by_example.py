@@ -11,7 +11,7 @@ from api_schemas.base import WHOLE, Seed
 from api_schemas.cost import Cost
 from api_schemas.families import TextureSpec
 from api_schemas.maps import DATA
-from api_schemas.own_size import FUNCTION_SIZE, LIKE_EXEMPLAR, LIKE_RESULT, OWN_SIZE
+from api_schemas.own_size import FUNCTION_SIZE, LIKE_EXEMPLAR, LIKE_RESULT, OWN_SIZE, Size
 
 if TYPE_CHECKING:
     from api_schemas.language import Texture
@@ -49,8 +49,18 @@ class FromExemplarSpec(TextureSpec):
     seed: Seed = Field(default=0, description="Another number, another texture of the same kind.")
 
     def cost(self, pixels: int) -> Cost:
-        """Of an exemplar of functions; where its size is known, `cost_from` knows better."""
-        return self.cost_from({"exemplar": math.prod(self.exemplar_size or FUNCTION_SIZE)}, pixels)
+        """Of an exemplar of functions; where its size is known, `cost_at` knows better."""
+        width, height = self.exemplar_size or FUNCTION_SIZE
+        return self.cost_at({"exemplar": (width, height)}, pixels)
+
+    def cost_at(self, sides: Mapping[str, Size], pixels: int) -> Cost:
+        """Estimate the technique alone.
+
+        Args:
+            sides: Width and height of each nested texture, by field name; at least the exemplar's.
+            pixels: How many the picture has that is asked for.
+        """
+        return self.cost_from({name: math.prod(size) for name, size in sides.items()}, pixels)
 
     @abstractmethod
     def cost_from(self, within: Mapping[str, int], pixels: int) -> Cost:

@@ -28,6 +28,8 @@ def finished(
     inputs: Mapping[str, Image],
     size: tuple[int, int],
     kept: Image | None = None,
+    *,
+    turns: NDArray[np.int64] | None = None,
 ) -> Outcome:
     """Gather pixels, and tell where they come from and how good the result is.
 
@@ -37,11 +39,15 @@ def finished(
         inputs: `picture` is what pixels are taken of, if it is there, else the exemplar.
         size: Width and height of the picture that is wanted.
         kept: Where -1 is taken from.
+        turns: Which view of the exemplar each pixel is from, where there are several.
     """
     image = gathered(place, inputs.get("picture", exemplar.image), kept)
+    layers = {"source": source_layer(place, exemplar.shape)}
+    if turns is not None:
+        layers["turn"] = turns[..., np.newaxis].astype(np.float32)
     return Outcome(
         Image(resample(image.pixels, size), image.meaning),
-        {"source": Image(nearest(source_layer(place, exemplar.shape), size), "data")},
+        {name: Image(nearest(values, size), "data") for name, values in layers.items()},
         {"quality": quality(place, exemplar)},
     )
 
