@@ -61,7 +61,8 @@ def synthesize(
             _lay(canvas, views, placing, corner, spec.tolerance, chances[index])
         energies.append(_energy(canvas, views))
     spots = canvas.result(spec.size)
-    made = finished(views.sources(spots), exemplar, inputs, size, turns=spots[..., 0])
+    place, turns = views.sources(spots), spots[..., 0]
+    made = finished(place, exemplar, inputs, size, turns=turns, normal_range=spec.normal_range)
     return Outcome(made.image, made.layers, {**made.report, "energies": energies})
 
 

@@ -42,7 +42,8 @@ def synthesize(
     views = Views.of(exemplar, turns=spec.turns, flips=spec.flips)
     width, height = spec.size
     spots = quilted(exemplar, views, (height, width), spec, report)
-    return finished(views.sources(spots), exemplar, inputs, size, turns=spots[..., 0])
+    place, turns = views.sources(spots), spots[..., 0]
+    return finished(place, exemplar, inputs, size, turns=turns, normal_range=spec.normal_range)
 
 
 def quilted(
