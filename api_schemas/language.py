@@ -25,7 +25,15 @@ from api_schemas.families import (
     TechniqueSpec,
     TextureSpec,
 )
-from api_schemas.maps import ColorMap, LightMap, Map, NormalMap, NumberMap, ScaledMap
+from api_schemas.maps import (
+    ColorMap,
+    DensityMap,
+    LightMap,
+    Map,
+    NormalMap,
+    NumberMap,
+    ScaledMap,
+)
 from api_schemas.parameters import ParameterMap
 from api_schemas.relief import (
     BumpMap,
@@ -107,6 +115,7 @@ if TYPE_CHECKING:
     Operand: TypeAlias = float | TextureSpec
     MappableNumber: TypeAlias = float | NumberMap
     MappableNonNegative: TypeAlias = float | NumberMap
+    MappableDensity: TypeAlias = float | DensityMap
     MappableColor: TypeAlias = list[float] | ColorMap
 else:
 
@@ -121,6 +130,7 @@ else:
     Operand = TypeAliasType("Operand", _mappable(Number, Texture))
     MappableNumber = TypeAliasType("MappableNumber", _mappable(Number, NumberMap))
     MappableNonNegative = TypeAliasType("MappableNonNegative", _mappable(NonNegative, NumberMap))
+    MappableDensity = TypeAliasType("MappableDensity", _mappable(NonNegative, DensityMap))
     MappableColor = TypeAliasType("MappableColor", _mappable(Color, ColorMap))
 
 
@@ -135,13 +145,14 @@ def _complete() -> None:
             "Operand",
             "MappableNumber",
             "MappableNonNegative",
+            "MappableDensity",
             "MappableColor",
         )
     } | {model.__name__: model for model in (LightMap, NormalMap, BumpMap, HeightMap, ParallaxMap)}
     names["TangentFrames"] = TangentFrames
     members = [spec for family in FAMILIES.values() for spec in family.values()]
-    models: list[type[Schema]] = [Map, ScaledMap, ColorMap, LightMap, NumberMap, NormalMap]
-    models += [ReliefMap, BumpMap, HeightMap, ParallaxMap, Displacement, SurfaceSpec]
+    models: list[type[Schema]] = [Map, ScaledMap, ColorMap, LightMap, NumberMap, DensityMap]
+    models += [NormalMap, ReliefMap, BumpMap, HeightMap, ParallaxMap, Displacement, SurfaceSpec]
     models += [ParameterMap, *ParameterMap.__subclasses__(), CellsSpec, DishSpec, ReactionSpec]
     for model in (*models, *members):
         module = importlib.import_module(model.__module__)
