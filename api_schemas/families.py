@@ -76,6 +76,10 @@ class TextureSpec(TechniqueSpec):
         """Return the size that textures within are made at, where this one is made at `size`."""
         return size
 
+    def outer_size(self, size: tuple[int, int]) -> tuple[int, int]:
+        """Return the size of its own pixels, where the largest within it are of a `size`."""
+        return size
+
     def refusals(self) -> Iterator[Refusal]:
         """Tell what its numbers make impossible, beyond what its schema refuses."""
         yield from ()
