@@ -76,6 +76,10 @@ class TextureSpec(TechniqueSpec):
         """Return the size that textures within are made at, where this one is made at `size`."""
         return size
 
+    def outer_size(self, size: tuple[int, int]) -> tuple[int, int]:
+        """Return the size of its own pixels, where the largest within it are of a `size`."""
+        return size
+
     def has_layer(self, name: str) -> bool:
         """Whether it can tell this layer with the numbers and textures it was given."""
         return name in self.layers
@@ -162,6 +166,9 @@ class SurfaceSpec(TechniqueSpec):
 
     needs_tangents: ClassVar[bool] = False
     """Whether it looks different along u and along v, so that the mesh's tangents matter."""
+    fills_box: ClassVar[bool] = False
+    """Whether it is what is in a box, and not its sides: no other mesh may wear it, and it keeps no
+    light from what is behind it."""
 
     opacity: MappableNonNegative = Field(
         default=1.0,
@@ -203,6 +210,10 @@ class SurfaceSpec(TechniqueSpec):
         default=None,
         description="Baked light that arrives besides the lamps', reflected as ambient light is.",
     )
+
+    def looks(self, lights: int) -> int:
+        """Return how often each sample reads the maps, where so many lights shine."""
+        return 1
 
     def filled(self) -> Self:
         """Return the surface with every parameter that follows another one set to its value."""

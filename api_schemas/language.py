@@ -24,7 +24,7 @@ from api_schemas.families import (
     TechniqueSpec,
     TextureSpec,
 )
-from api_schemas.maps import ColorMap, LightMap, NormalMap, NumberMap
+from api_schemas.maps import ColorMap, DensityMap, LightMap, NormalMap, NumberMap
 from api_schemas.relief import (
     BumpMap,
     HeightMap,
@@ -103,6 +103,7 @@ if TYPE_CHECKING:
     Operand: TypeAlias = float | TextureSpec
     MappableNumber: TypeAlias = float | NumberMap
     MappableNonNegative: TypeAlias = float | NumberMap
+    MappableDensity: TypeAlias = float | DensityMap
     MappableColor: TypeAlias = list[float] | ColorMap
 else:
 
@@ -117,6 +118,7 @@ else:
     Operand = TypeAliasType("Operand", _mappable(Number, Texture))
     MappableNumber = TypeAliasType("MappableNumber", _mappable(Number, NumberMap))
     MappableNonNegative = TypeAliasType("MappableNonNegative", _mappable(NonNegative, NumberMap))
+    MappableDensity = TypeAliasType("MappableDensity", _mappable(NonNegative, DensityMap))
     MappableColor = TypeAliasType("MappableColor", _mappable(Color, ColorMap))
 
 
@@ -137,6 +139,7 @@ def _complete() -> None:
             "Operand",
             "MappableNumber",
             "MappableNonNegative",
+            "MappableDensity",
             "MappableColor",
         )
     } | {model.__name__: model for model in (LightMap, NormalMap, BumpMap, HeightMap, ParallaxMap)}

@@ -38,6 +38,8 @@ class Task:
         target: Their features, (height, width, channels), where any are fixed.
         variety: How strongly patches are kept from being used too often; 1 is ordinary.
         start: A coordinate map, (height, width, 2) of any size, that is like the one wanted.
+        longest_copy: How much of the exemplar's height and width may be copied in one line, 0..1;
+            None for any length.
     """
 
     source: Bytes
@@ -50,6 +52,7 @@ class Task:
     target: Bytes | None = None
     variety: float = 1.0
     start: Integers | None = None
+    longest_copy: float | None = None
 
     def keeping(self, target: Bytes, fixed: Mask) -> Task:
         """Return the same task with some finished pixels."""
