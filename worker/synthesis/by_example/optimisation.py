@@ -137,6 +137,7 @@ class _Search:
         source = self._level.usable.shape
         rows, columns = brought_to(start, self._task.usable.shape, source, self._grid)
         self._field = Field.of(*self._onto_allowed(rows, columns))
+        self._active = np.ones(self._grid.counts, bool)
         self._vote()
         return self
 
