@@ -168,6 +168,9 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
         own = MAPS_OF_A_MATERIAL * found.pictures * SECONDS_PER_MAP_SAMPLE["anisotropic"]
         looks = [own, *map(_seconds_per_sample, maps)]
         shading = passes * lighting + (sum(looks) if among else max(looks))
+        if environment is not None or node.surroundings is not None:
+            more = max((surface.sky_lookups - 1 for surface in surfaces), default=0)
+            shading += passes * more * SKY_SECONDS_PER_SAMPLE
         # The parts of one model fill the ball side by side as well as one behind the other.
         covered = math.cbrt(found.draws)
         covered *= coverage(found.reach, placed, camera, width / height)

@@ -153,11 +153,12 @@ class LayoutSpec(TechniqueSpec):
         return None
 
 
+STREAK_LOOKUPS = 12
+"""How often what is brushed looks at an environment; lib/streak.glsl has the same number."""
+
+
 class SurfaceSpec(TechniqueSpec):
     """Says how a surface sends light to the eye, and how much of what is behind it is seen."""
-
-    needs_tangents: ClassVar[bool] = False
-    """Whether it looks different along u and along v, so that the mesh's tangents matter."""
 
     opacity: MappableNonNegative = Field(
         default=1.0,
@@ -199,6 +200,16 @@ class SurfaceSpec(TechniqueSpec):
         default=None,
         description="Baked light that arrives besides the lamps', reflected as ambient light is.",
     )
+
+    @property
+    def needs_tangents(self) -> bool:
+        """Whether it looks different along u and along v, so that the mesh's tangents matter."""
+        return False
+
+    @property
+    def sky_lookups(self) -> int:
+        """How often it looks at an environment for one sample."""
+        return 1
 
     def filled(self) -> Self:
         """Return the surface with every parameter that follows another one set to its value."""
