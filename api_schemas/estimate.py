@@ -91,15 +91,15 @@ def _textures(value: object, facts: Mapping[str, AssetFacts], size: Size) -> Cos
     for texture in outermost(value, TextureSpec):
         if isinstance(texture, ImageSpec) and (texels := _texels(texture, facts)):
             cost += Cost(texels * SECONDS_PER_TEXEL, texels * BYTES_PER_TEXEL)
-        within = {}
+        within: dict[str, Size] = {}
         for name in type(texture).model_fields:
             inner = getattr(texture, name)
             if isinstance(inner, BRANCHES):
                 sides = size_within(texture, name, size, measure)
-                within[name] = math.prod(sides)
+                within[name] = sides
                 cost += _textures(inner, facts, sides)
         if isinstance(texture, FromExemplarSpec):
-            cost += texture.cost_from(within, math.prod(size))
+            cost += texture.cost_at(within, math.prod(size))
         else:
             cost += texture.cost(math.prod(size))
     return cost

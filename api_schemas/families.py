@@ -76,6 +76,10 @@ class TextureSpec(TechniqueSpec):
         """Return the size that textures within are made at, where this one is made at `size`."""
         return size
 
+    def has_layer(self, name: str) -> bool:
+        """Whether it can tell this layer with the numbers and textures it was given."""
+        return name in self.layers
+
     def refusals(self) -> Iterator[Refusal]:
         """Tell what its numbers make impossible, beyond what its schema refuses."""
         yield from ()

@@ -121,8 +121,8 @@ def _slices(request: TextureRequest) -> Iterator[Obstacle]:
 def _layer_names(request: TextureRequest) -> Iterator[Obstacle]:
     texture = request.texture
     for index, name in enumerate(request.output.layers):
-        if name not in texture.layers:
-            known = ", ".join(texture.layers) or "none"
+        if not texture.has_layer(name):
+            known = ", ".join(filter(texture.has_layer, texture.layers)) or "none"
             yield Obstacle(
                 "layer_unknown",
                 f"/output/layers/{index}",
