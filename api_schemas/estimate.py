@@ -169,6 +169,9 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
         own = MAPS_OF_A_MATERIAL * found.pictures * SECONDS_PER_MAP_SAMPLE["anisotropic"]
         looks = [own, *(_seconds_per_surface(surface, shining) for surface in surfaces)]
         shading = passes * lighting + (sum(looks) if among else max(looks))
+        if environment is not None or node.surroundings is not None:
+            more = max((surface.sky_lookups - 1 for surface in surfaces), default=0)
+            shading += passes * more * SKY_SECONDS_PER_SAMPLE
         # The parts of one model fill the ball side by side as well as one behind the other.
         covered = math.cbrt(found.draws)
         covered *= coverage(found.reach, placed, camera, width / height)
