@@ -133,7 +133,7 @@ def test_t37_a_chalk_ball_is_the_irradiance_map(studio: Studio) -> None:
     }
     from pydantic import TypeAdapter  # noqa: PLC0415
 
-    from api_schemas.language import Texture  # noqa: PLC0415
+    from api_schemas.members import Texture  # noqa: PLC0415
     from worker.synthesis import irradiance  # noqa: PLC0415
 
     spec = TypeAdapter(Texture).validate_python(mapped)

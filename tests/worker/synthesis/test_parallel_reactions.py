@@ -4,7 +4,8 @@ import pytest
 from pydantic import TypeAdapter
 
 from api_schemas.dishes import ReactionSpec
-from api_schemas.language import FAMILIES, Texture
+from api_schemas.language import FAMILIES
+from api_schemas.members import Texture
 from worker.synthesis import outcome
 
 REACTIONS = [n for n, spec in FAMILIES["textures"].items() if issubclass(spec, ReactionSpec)]
