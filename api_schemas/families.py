@@ -161,11 +161,16 @@ class LayoutSpec(TechniqueSpec):
         return None
 
 
+STREAK_LOOKUPS = 12
+"""How often what is brushed looks at an environment; lib/streak.glsl has the same number."""
+
+
 class SurfaceSpec(TechniqueSpec):
     """Says how a surface sends light to the eye, and how much of what is behind it is seen."""
 
-    needs_tangents: ClassVar[bool] = False
-    """Whether it looks different along u and along v, so that the mesh's tangents matter."""
+    fills_box: ClassVar[bool] = False
+    """Whether it is what is in a box, and not its sides: no other mesh may wear it, and it keeps no
+    light from what is behind it."""
 
     opacity: MappableNonNegative = Field(
         default=1.0,
@@ -207,6 +212,20 @@ class SurfaceSpec(TechniqueSpec):
         default=None,
         description="Baked light that arrives besides the lamps', reflected as ambient light is.",
     )
+
+    def looks(self, lights: int) -> int:
+        """Return how often each sample reads the maps, where so many lights shine."""
+        return 1
+
+    @property
+    def needs_tangents(self) -> bool:
+        """Whether it looks different along u and along v, so that the mesh's tangents matter."""
+        return False
+
+    @property
+    def sky_lookups(self) -> int:
+        """How often it looks at an environment for one sample."""
+        return 1
 
     def filled(self) -> Self:
         """Return the surface with every parameter that follows another one set to its value."""

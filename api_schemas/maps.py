@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 MAPS_MAX = 24
 """Maps on one surface: with eight to spare, what OpenGL lets a shader read."""
 
+FineDetail = Literal["lost", "roughness"]
 PictureFilter = Literal["nearest", "bilinear", "trilinear", "anisotropic"]
 TableFilter = Literal["ripmap", "summed_area"]
 Filter = Literal[PictureFilter, "ewa", TableFilter, "formula"]
@@ -137,6 +138,21 @@ class NumberMap(ScaledMap):
     )
 
 
+class DensityMap(NumberMap):
+    """A texture in the place of a density: in space, unless its coordinates say otherwise."""
+
+    coordinates: Coordinates = Field(
+        default={"technique": "position"},
+        validate_default=True,
+        description="Where on the texture to look. What is no place in space is that of where the "
+        "ray enters.",
+    )
+    filter: Filter = Field(
+        default="trilinear",
+        description="How texels become a point of the ray: anisotropic is slow, formula slower.",
+    )
+
+
 class NormalMap(Map):
     """A texture in the place of a normal: x, y, z along tangent, bitangent and normal.
 
@@ -155,6 +171,12 @@ class NormalMap(Map):
     range: Literal["unit", "signed"] = Field(
         default="unit",
         description="Whether the picture holds 0..1, with 0.5 for none, or the numbers themselves.",
+    )
+    fine_detail: FineDetail = Field(
+        default="lost",
+        description="What becomes of tilts that are finer than a pixel: lost, so that far things "
+        "sparkle or look polished, or roughness, which makes highlights wider and dimmer, as all "
+        "the small ones together are (Toksvig, 2005).",
     )
     space: Literal["tangent", "object"] = Field(
         default="tangent",

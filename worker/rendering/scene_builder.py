@@ -107,7 +107,7 @@ class SceneBuilder:
                     item.world_from_object,
                     worn[key][1],
                     item.thing,
-                    item.node.casts_shadows,
+                    item.node.casts_shadows and not item.surface.fills_box,
                     item.name,
                 )
             )
