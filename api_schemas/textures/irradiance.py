@@ -21,6 +21,7 @@ class IrradianceSpec(SphereSpec):
     all texels; and whether the light comes from below, as in a picture stored upside down.
     """
 
+    revision: ClassVar[int] = 2
     source: ClassVar[str] = "Ramamoorthi and Hanrahan, 2001; Sloan et al., 2002; Miller, 1984"
     equation: ClassVar[str] = (
         "E(n) / pi = (1 / pi) int L(w) max(0, n.w) dw ~ sum_lm (A_l / pi) L_lm Y_lm(n), "
