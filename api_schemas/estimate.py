@@ -52,6 +52,7 @@ SECONDS_PER_MAP_SAMPLE = {
     "formula": 4e-7,
 }
 SECONDS_PER_PARALLAX_STEP = 2e-8
+SECONDS_PER_STEP = 2e-8
 SECONDS_TO_COMPILE_A_MAP = 0.12
 SECONDS_TO_COMPILE_A_FORMULA = 0.4
 SECONDS_PER_DRAWN_TRIANGLE = 5e-8
@@ -166,7 +167,7 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
         for worn in [*maps, among, _maps(node.displacement)]:
             cost += textures.cost(worn)
         own = MAPS_OF_A_MATERIAL * found.pictures * SECONDS_PER_MAP_SAMPLE["anisotropic"]
-        looks = [own, *map(_seconds_per_sample, maps)]
+        looks = [own, *(_seconds_per_surface(surface, shining) for surface in surfaces)]
         shading = passes * lighting + (sum(looks) if among else max(looks))
         if environment is not None or node.surroundings is not None:
             more = max((surface.sky_lookups - 1 for surface in surfaces), default=0)
@@ -174,7 +175,7 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
         # The parts of one model fill the ball side by side as well as one behind the other.
         covered = math.cbrt(found.draws)
         covered *= coverage(found.reach, placed, camera, width / height)
-        if any(surface.alpha_mode == "blend" for surface in surfaces):
+        if any(s.alpha_mode == "blend" and not s.fills_box for s in surfaces):
             covered *= 2  # what is behind its front is shaded too
             cost += Cost(found.pieces * SECONDS_PER_SORTED_TRIANGLE)
         cost += Cost(samples * covered * shading)
@@ -194,6 +195,12 @@ def _maps(value: object) -> list[MAPS]:
 def _seconds_per_sample(maps: Sequence[MAPS]) -> float:
     """Return the seconds that looking up all of them once takes."""
     return sum(_seconds_per_look(item) for item in maps)
+
+
+def _seconds_per_surface(surface: SurfaceSpec, lights: int) -> float:
+    """Return the seconds that all looks of one sample take, where so many lights shine."""
+    looks = surface.looks(lights)
+    return looks * _seconds_per_sample(_maps(surface)) + (looks - 1) * SECONDS_PER_STEP
 
 
 def _seconds_per_look(item: MAPS) -> float:

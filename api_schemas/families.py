@@ -76,6 +76,10 @@ class TextureSpec(TechniqueSpec):
         """Return the size that textures within are made at, where this one is made at `size`."""
         return size
 
+    def outer_size(self, size: tuple[int, int]) -> tuple[int, int]:
+        """Return the size of its own pixels, where the largest within it are of a `size`."""
+        return size
+
     def has_layer(self, name: str) -> bool:
         """Whether it can tell this layer with the numbers and textures it was given."""
         return name in self.layers
@@ -164,6 +168,10 @@ STREAK_LOOKUPS = 12
 class SurfaceSpec(TechniqueSpec):
     """Says how a surface sends light to the eye, and how much of what is behind it is seen."""
 
+    fills_box: ClassVar[bool] = False
+    """Whether it is what is in a box, and not its sides: no other mesh may wear it, and it keeps no
+    light from what is behind it."""
+
     opacity: MappableNonNegative = Field(
         default=1.0,
         description="How much of what is behind is hidden, where alpha_mode is mask or blend.",
@@ -204,6 +212,10 @@ class SurfaceSpec(TechniqueSpec):
         default=None,
         description="Baked light that arrives besides the lamps', reflected as ambient light is.",
     )
+
+    def looks(self, lights: int) -> int:
+        """Return how often each sample reads the maps, where so many lights shine."""
+        return 1
 
     @property
     def needs_tangents(self) -> bool:

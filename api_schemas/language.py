@@ -17,6 +17,7 @@ from typing_extensions import TypeAliasType
 
 from api_schemas import coordinates, layouts, surfaces, textures
 from api_schemas.base import Color, NonNegative, Number, Schema
+from api_schemas.dishes import CellsSpec, DishSpec, ReactionSpec
 from api_schemas.families import (
     CoordinatesSpec,
     LayoutSpec,
@@ -24,11 +25,22 @@ from api_schemas.families import (
     TechniqueSpec,
     TextureSpec,
 )
-from api_schemas.maps import ColorMap, LightMap, NormalMap, NumberMap
+from api_schemas.maps import (
+    ColorMap,
+    DensityMap,
+    LightMap,
+    Map,
+    NormalMap,
+    NumberMap,
+    ScaledMap,
+)
+from api_schemas.parameters import ParameterMap
 from api_schemas.relief import (
     BumpMap,
+    Displacement,
     HeightMap,
     ParallaxMap,
+    ReliefMap,
     TangentFrames,
 )
 
@@ -103,6 +115,7 @@ if TYPE_CHECKING:
     Operand: TypeAlias = float | TextureSpec
     MappableNumber: TypeAlias = float | NumberMap
     MappableNonNegative: TypeAlias = float | NumberMap
+    MappableDensity: TypeAlias = float | DensityMap
     MappableColor: TypeAlias = list[float] | ColorMap
 else:
 
@@ -117,16 +130,11 @@ else:
     Operand = TypeAliasType("Operand", _mappable(Number, Texture))
     MappableNumber = TypeAliasType("MappableNumber", _mappable(Number, NumberMap))
     MappableNonNegative = TypeAliasType("MappableNonNegative", _mappable(NonNegative, NumberMap))
+    MappableDensity = TypeAliasType("MappableDensity", _mappable(NonNegative, DensityMap))
     MappableColor = TypeAliasType("MappableColor", _mappable(Color, ColorMap))
 
 
 def _complete() -> None:
-    """Put the names where each spec's module looks for them.
-
-    pydantic then completes a spec when it is first used: each holds all of its family, so that
-    completing them one by one here would keep every process waiting for seconds. Only what other
-    modules derive from has to be complete before.
-    """
     names = {
         name: globals()[name]
         for name in (
@@ -137,18 +145,18 @@ def _complete() -> None:
             "Operand",
             "MappableNumber",
             "MappableNonNegative",
+            "MappableDensity",
             "MappableColor",
         )
     } | {model.__name__: model for model in (LightMap, NormalMap, BumpMap, HeightMap, ParallaxMap)}
     names["TangentFrames"] = TangentFrames
-    for module in {spec.__module__ for spec in _descendants(Schema)}:
-        vars(importlib.import_module(module)).update(names)
-    NumberMap.model_rebuild(force=True)
-
-
-def _descendants(model: type[Schema]) -> set[type[Schema]]:
-    children = model.__subclasses__()
-    return {*children}.union(*(_descendants(child) for child in children))
+    members = [spec for family in FAMILIES.values() for spec in family.values()]
+    models: list[type[Schema]] = [Map, ScaledMap, ColorMap, LightMap, NumberMap, DensityMap]
+    models += [NormalMap, ReliefMap, BumpMap, HeightMap, ParallaxMap, Displacement, SurfaceSpec]
+    models += [ParameterMap, *ParameterMap.__subclasses__(), CellsSpec, DishSpec, ReactionSpec]
+    for model in (*models, *members):
+        module = importlib.import_module(model.__module__)
+        model.model_rebuild(force=True, _types_namespace={**vars(module), **names})
 
 
 _complete()

@@ -138,6 +138,21 @@ class NumberMap(ScaledMap):
     )
 
 
+class DensityMap(NumberMap):
+    """A texture in the place of a density: in space, unless its coordinates say otherwise."""
+
+    coordinates: Coordinates = Field(
+        default={"technique": "position"},
+        validate_default=True,
+        description="Where on the texture to look. What is no place in space is that of where the "
+        "ray enters.",
+    )
+    filter: Filter = Field(
+        default="trilinear",
+        description="How texels become a point of the ray: anisotropic is slow, formula slower.",
+    )
+
+
 class NormalMap(Map):
     """A texture in the place of a normal: x, y, z along tangent, bitangent and normal.
 

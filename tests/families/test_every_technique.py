@@ -41,6 +41,7 @@ STAGE = {
     ],
 }
 BALL = {"mesh": {"type": "sphere"}}
+BOX = {"mesh": {"type": "box"}}
 
 
 def picture(spec, meaning):
@@ -135,7 +136,8 @@ def test_any_valid_surface_is_drawn_finite_deterministic_and_leaves_its_spec_alo
     @settings(max_examples=8)
     @given(bodies(FAMILIES["surfaces"][name], levels=1, number_limit=100))
     def holds(surface):
-        scene = Scene.model_validate({**STAGE, "nodes": [{**BALL, "surface": surface}]})
+        shape = BOX if FAMILIES["surfaces"][name].fills_box else BALL
+        scene = Scene.model_validate({**STAGE, "nodes": [{**shape, "surface": surface}]})
         if list(obstacles(RenderRequest(scene=scene))) or any(map(faceless, parts(scene))):
             return
         before = copy.deepcopy(scene)
@@ -144,7 +146,7 @@ def test_any_valid_surface_is_drawn_finite_deterministic_and_leaves_its_spec_alo
 
         assert pixels.shape == (*SIZE[::-1], 4)
         assert np.isfinite(pixels).all()
-        assert pixels[..., 3].any() or surface.get("alpha_mode", "opaque") != "opaque"
+        assert pixels[..., 3].any() or scene.nodes[0].surface.alpha_mode != "opaque"
         assert pixels.tobytes() == drawn(scene).tobytes()
         assert scene == before
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from api_schemas.textures.turing import TuringSpec
-from worker.numba_kernel import kernel
+from worker.numba_kernel import parallel_kernel, prange
 from worker.synthesis._dish import at
 from worker.synthesis._reaction import Reaction, outcome_of, warmed
 
@@ -17,12 +17,12 @@ if TYPE_CHECKING:
 
     from worker.images.image import Image
     from worker.outcome import Outcome
-    from worker.stages import Report
+    from worker.preview import Progress
     from worker.synthesis._dish import Cells, Rows
 
 
 def synthesize(
-    spec: TuringSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Report
+    spec: TuringSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Progress
 ) -> Outcome:
     """Let the dish react and bring it to (width, height)."""
     reaction = Reaction(spec, inputs)
@@ -35,10 +35,10 @@ def warm() -> None:
     warmed(TuringSpec(technique="turing", size=[16, 16], steps=1), _react)
 
 
-@kernel
+@parallel_kernel
 def _react(after: Cells, before: Cells, parameters: tuple[Rows, ...], time_step: float) -> None:
     _, height, width = before.shape
-    for row in range(1, height - 1):
+    for row in prange(1, height - 1):
         a, b = before[0, row], before[1, row]
         speed = at(parameters[0], row)
         taken = at(parameters[1], row)

@@ -133,7 +133,8 @@ def difference(
 def _is_barred(barred: Integers, y: int, x: int, v: int, u: int, side: int) -> bool:
     if barred.shape[0] == 0:
         return False
-    return 2 * abs(v - barred[y, x, 0]) < side and 2 * abs(u - barred[y, x, 1]) < side
+    near = 2 * abs(v - barred[y, x, 0]) < side and 2 * abs(u - barred[y, x, 1]) < side
+    return bool(near)
 
 
 @parallel_kernel
