@@ -13,7 +13,6 @@ from api_schemas.cost import Cost
 from api_schemas.members import Texture
 from api_schemas.own_size import OWN_SIZE
 
-
 NEAREST_MAX = 8
 _FURTHER = range(2, NEAREST_MAX + 1)
 
