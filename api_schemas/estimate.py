@@ -92,15 +92,15 @@ def _textures(value: object, facts: Mapping[str, AssetFacts], size: Size) -> Cos
     for texture in outermost(value, TextureSpec):
         if isinstance(texture, ImageSpec) and (texels := _texels(texture, facts)):
             cost += Cost(texels * SECONDS_PER_TEXEL, texels * BYTES_PER_TEXEL)
-        within = {}
+        within: dict[str, Size] = {}
         for name in type(texture).model_fields:
             inner = getattr(texture, name)
             if isinstance(inner, BRANCHES):
                 sides = size_within(texture, name, size, measure)
-                within[name] = math.prod(sides)
+                within[name] = sides
                 cost += _textures(inner, facts, sides)
         if isinstance(texture, FromExemplarSpec):
-            cost += texture.cost_from(within, math.prod(size))
+            cost += texture.cost_at(within, math.prod(size))
         else:
             cost += texture.cost(math.prod(size))
     return cost
@@ -169,6 +169,9 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
         own = MAPS_OF_A_MATERIAL * found.pictures * SECONDS_PER_MAP_SAMPLE["anisotropic"]
         looks = [own, *(_seconds_per_surface(surface, shining) for surface in surfaces)]
         shading = passes * lighting + (sum(looks) if among else max(looks))
+        if environment is not None or node.surroundings is not None:
+            more = max((surface.sky_lookups - 1 for surface in surfaces), default=0)
+            shading += passes * more * SKY_SECONDS_PER_SAMPLE
         # The parts of one model fill the ball side by side as well as one behind the other.
         covered = math.cbrt(found.draws)
         covered *= coverage(found.reach, placed, camera, width / height)

@@ -76,6 +76,14 @@ class TextureSpec(TechniqueSpec):
         """Return the size that textures within are made at, where this one is made at `size`."""
         return size
 
+    def outer_size(self, size: tuple[int, int]) -> tuple[int, int]:
+        """Return the size of its own pixels, where the largest within it are of a `size`."""
+        return size
+
+    def has_layer(self, name: str) -> bool:
+        """Whether it can tell this layer with the numbers and textures it was given."""
+        return name in self.layers
+
     def refusals(self) -> Iterator[Refusal]:
         """Tell what its numbers make impossible, beyond what its schema refuses."""
         yield from ()
@@ -153,11 +161,13 @@ class LayoutSpec(TechniqueSpec):
         return None
 
 
+STREAK_LOOKUPS = 12
+"""How often what is brushed looks at an environment; lib/streak.glsl has the same number."""
+
+
 class SurfaceSpec(TechniqueSpec):
     """Says how a surface sends light to the eye, and how much of what is behind it is seen."""
 
-    needs_tangents: ClassVar[bool] = False
-    """Whether it looks different along u and along v, so that the mesh's tangents matter."""
     fills_box: ClassVar[bool] = False
     """Whether it is what is in a box, and not its sides: no other mesh may wear it, and it keeps no
     light from what is behind it."""
@@ -205,6 +215,16 @@ class SurfaceSpec(TechniqueSpec):
 
     def looks(self, lights: int) -> int:
         """Return how often each sample reads the maps, where so many lights shine."""
+        return 1
+
+    @property
+    def needs_tangents(self) -> bool:
+        """Whether it looks different along u and along v, so that the mesh's tangents matter."""
+        return False
+
+    @property
+    def sky_lookups(self) -> int:
+        """How often it looks at an environment for one sample."""
         return 1
 
     def filled(self) -> Self:

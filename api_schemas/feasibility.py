@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 
 from api_schemas.camera import Camera, FramedCamera, ModelCamera
 from api_schemas.cookies import COOKIES_MAX
-from api_schemas.environment import Environment
+from api_schemas.environment import Environment, Surroundings
 from api_schemas.families import SurfaceSpec, TextureSpec
 from api_schemas.geometry import IDENTITY, Affine, Vector3, affine, cross, length, triple
 from api_schemas.light_cost import cookies_of
@@ -69,7 +69,7 @@ def _limits(request: Request) -> Iterator[Obstacle]:
             "nesting_too_deep", place, f"{levels} levels within each other; at most {LEVELS_MAX}"
         )
     textures, nodes = 0, 0
-    surrounded = any(isinstance(part, Environment) for _, part in parts(request))
+    surrounded = any(isinstance(part, Environment | Surroundings) for _, part in parts(request))
     most = MAPS_MAX - SKY_MAPS * surrounded
     for pointer, part in parts(request):
         textures += isinstance(part, TextureSpec)
@@ -122,8 +122,8 @@ def _slices(request: TextureRequest) -> Iterator[Obstacle]:
 def _layer_names(request: TextureRequest) -> Iterator[Obstacle]:
     texture = request.texture
     for index, name in enumerate(request.output.layers):
-        if name not in texture.layers:
-            known = ", ".join(texture.layers) or "none"
+        if not texture.has_layer(name):
+            known = ", ".join(filter(texture.has_layer, texture.layers)) or "none"
             yield Obstacle(
                 "layer_unknown",
                 f"/output/layers/{index}",

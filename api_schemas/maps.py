@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 MAPS_MAX = 24
 """Maps on one surface: with eight to spare, what OpenGL lets a shader read."""
 
+FineDetail = Literal["lost", "roughness"]
 PictureFilter = Literal["nearest", "bilinear", "trilinear", "anisotropic"]
 TableFilter = Literal["ripmap", "summed_area"]
 Filter = Literal[PictureFilter, "ewa", TableFilter, "formula"]
@@ -170,6 +171,12 @@ class NormalMap(Map):
     range: Literal["unit", "signed"] = Field(
         default="unit",
         description="Whether the picture holds 0..1, with 0.5 for none, or the numbers themselves.",
+    )
+    fine_detail: FineDetail = Field(
+        default="lost",
+        description="What becomes of tilts that are finer than a pixel: lost, so that far things "
+        "sparkle or look polished, or roughness, which makes highlights wider and dimmer, as all "
+        "the small ones together are (Toksvig, 2005).",
     )
     space: Literal["tangent", "object"] = Field(
         default="tangent",

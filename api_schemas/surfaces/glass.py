@@ -40,3 +40,8 @@ class GlassSpec(SurfaceSpec):
     roughness: MappableNonNegative = Field(
         default=0.0, description="How blurred both are, from clear (0) to frosted (1)."
     )
+
+    @property
+    def sky_lookups(self) -> int:
+        """One is reflected, one bent."""
+        return 2

@@ -15,7 +15,7 @@ from worker.rendering.lookup_fragment import (
     texels,
 )
 from worker.rendering.relief_fragment import aside, relief_chunks, tilts
-from worker.rendering.shading import is_lit
+from worker.rendering.shading import has_lobe, is_lit
 from worker.rendering.shading_layout import (
     LightLayout,
     LookupLayout,
@@ -109,6 +109,8 @@ def _fragment(layout: ShadingLayout, lights: LightLayout, layered: bool, plane: 
     parameters = [*layout.parameters, *(parameter for parameter in others if parameter)]
     chunks = [f"lib/{'infinite_plane' if plane else 'fragment'}.glsl"]
     chunks += [f"surfaces/{layout.technique}.glsl"]
+    if has_lobe(layout.technique):
+        chunks.append(f"lobes/{'streaked' if layout.streaked else 'round'}.glsl")
     chunks += relief_chunks(layout)
     chunks += ["lib/opacity.glsl"] if layout.opacity else []
     chunks += ["lib/layers.glsl"] if layered else []

@@ -51,6 +51,7 @@ def synthesize(
         seed=spec.seed,
         guides=wishes.guides,
         variety=spec.variety,
+        longest_copy=0.5,
     )
     if wishes.keep is not None:
         kept = _compared(exemplar.matching(wishes.keep), spec.outlines, wishes.share)

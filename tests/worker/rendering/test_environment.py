@@ -16,6 +16,7 @@ from tests.worker.rendering.surroundings import (
     latlong,
     mirrored,
 )
+from worker.errors import RenderError
 
 pytestmark = [pytest.mark.gl, pytest.mark.usefixtures("small_cubes")]
 
@@ -254,3 +255,25 @@ def test_numbers_that_are_none_do_not_spread(studio: Studio) -> None:
         assert seen[..., :3].max() <= 1 + 1e-3
         # Rough metal gives back 69 % without the light between facets, and 2 of 2048 are dark.
         assert np.median(seen[4:12, 4:12, :3]) > 0.85
+
+
+@pytest.mark.parametrize(("bad", "count"), [(np.nan, 1), (np.inf, 1), (-np.inf, 1), (1.0, 0)])
+@pytest.mark.parametrize("layout", ["latlong", "octahedral"])
+def test_numbers_that_are_none_are_refused_where_that_is_wished(
+    studio: Studio, layout: str, bad: float, count: int
+) -> None:
+    pixels = np.ones((16, 32 if layout == "latlong" else 16, 3), np.float32)
+    pixels[4, 5, 1] = bad
+    environment = {
+        "texture": studio.texture(pixels),
+        "layout": {"technique": layout},
+        "broken_texels": "refuse",
+    }
+
+    if not count:
+        assert np.isfinite(ball(studio, environment, MIRROR, 4)).all()
+        return
+    with pytest.raises(RenderError, match=r"^1 number") as refused:
+        ball(studio, environment, MIRROR, 4)
+    assert refused.value.code == "environment_texels"
+    assert refused.value.pointer == "/scene/environment/texture"

@@ -15,8 +15,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy import ndimage
 
+from worker.synthesis.by_example.long_copies import late
 from worker.synthesis.by_example.patch_grid import PatchGrid
-from worker.synthesis.by_example.patch_match import NEVER, Field, Patches, evaluate, improve, lines
+from worker.synthesis.by_example.patch_match import (
+    NEVER,
+    NONE_BARRED,
+    Field,
+    Patches,
+    evaluate,
+    improve,
+    lines,
+)
 from worker.synthesis.by_example.pyramid import doubled
 from worker.synthesis.by_example.starting import continued_outwards, random_blocks
 from worker.synthesis.by_example.task import levels
@@ -40,6 +49,7 @@ _RADII = (65536, 65536, 32, 8)
 _STARTS = 8
 _DENSE_BELOW = 160
 _PRESSURE = 0.1
+_NOWHERE = -(2**20)
 
 
 def optimise(
@@ -101,6 +111,7 @@ class _Search:
         self._used: NDArray[np.float32] = np.zeros(self._allowed.shape, np.float32)
         self._price = 0.0
         self._features = level.target.copy()
+        self._barred = np.full((*self._grid.counts, 2), _NOWHERE, np.int32)
         self.place = np.zeros((height, width, 2), np.int32)
 
     def random(self, use: int) -> _Search:
@@ -109,6 +120,7 @@ class _Search:
         limits = self._allowed.shape
         blocks = random_blocks(self._grid, (limits[0], limits[1]), side, self._task.seed, use)
         self._field = Field.of(*self._onto_allowed(*blocks))
+        self._active = np.ones(self._grid.counts, bool)
         if self._level.fixed.any():
             voted = self._voted.shape[2]
             known = self._features[..., :voted]
@@ -125,6 +137,10 @@ class _Search:
         height, width = self._grid.counts
         rows, columns = rows[::stride, ::stride], columns[::stride, ::stride]
         self._field = Field.of(*self._onto_allowed(rows[:height, :width], columns[:height, :width]))
+        barred = doubled(np.moveaxis(coarser._barred, -1, 0), self._grid.size)
+        barred = barred[:, ::stride, ::stride][:, :height, :width]
+        self._barred = np.ascontiguousarray(np.moveaxis(barred, 0, -1))
+        self._active = np.ones(self._grid.counts, bool)
         self._vote()
         return self
 
@@ -136,6 +152,7 @@ class _Search:
 
     def advance(self, turn: int) -> None:
         """Let patches look twice for better source patches, then pixels choose anew."""
+        self._bar_long_copies()
         patches = self._patches()
         if turn == 0:
             evaluate(patches, self._field, self._needed)
@@ -165,9 +182,30 @@ class _Search:
             self._features,
             self.place,
             self._level.fixed,
+            self._active,
         )
         broken = self._grid.breaks(self._field.rows, self._field.columns)
         self._active = self._needed & (self._grid.holding(changed) | broken)
+
+    def _bar_long_copies(self) -> None:
+        """Let patches in the midst of what is late not use what they use."""
+        share = self._task.longest_copy
+        if share is None:
+            return
+        half = self._grid.side // 2
+        longest = [int(share * length) - half for length in self._level.usable.shape]
+        if min(longest) < self._grid.side:
+            return
+        wraps = self._task.tileable
+        spoilt = late(self.place, (longest[0], longest[1]), wraps=wraps)
+        if not spoilt.any():
+            return
+        rows, columns = self._grid.places(0, half), self._grid.places(1, half)
+        middles = self.place[rows[:, np.newaxis], columns] - half
+        uses = np.stack(self._field[:2], axis=-1)
+        found = spoilt[rows[:, np.newaxis], columns] & (middles == uses).all(axis=-1)
+        self._barred[found] = uses[found]
+        self._active |= found
 
     def _patches(self) -> Patches:
         return Patches(
@@ -177,6 +215,7 @@ class _Search:
             self._grid.side,
             self._features.shape[2],
             self._grid.stride,
+            NONE_BARRED if self._task.longest_copy is None else self._barred,
         )
 
     def _use(self) -> NDArray[np.float32]:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from worker.byte_squares import WIDTH, counting, squares
 from worker.numba_kernel import kernel, parallel_kernel, prange
 from worker.synthesis._counter_hash import hashes
 from worker.synthesis.by_example.hashing import below, scrambled
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
 BAND_ROWS = 128
 NEVER = 2**31 - 1
 """A cost that no patch has: of source patches that must not be used."""
+NONE_BARRED = np.zeros((0, 0, 2), np.int32)
 
 
 class Field(NamedTuple):
@@ -40,8 +42,9 @@ class Field(NamedTuple):
 
 
 def lines(features: Bytes) -> Bytes:
-    """Lay the channels of a row of pixels beside each other."""
-    return np.ascontiguousarray(features).reshape(len(features), -1)
+    """Lay the channels of a row of pixels beside each other, and go on for as much as is read."""
+    rows = np.ascontiguousarray(features).reshape(len(features), -1)
+    return np.pad(rows, ((0, 0), (0, WIDTH - 1)))
 
 
 class Patches(NamedTuple):
@@ -54,6 +57,8 @@ class Patches(NamedTuple):
         side: Of a patch, in pixels.
         channels: Bytes per pixel.
         stride: Pixels from one target patch to the next.
+        barred: A source patch, (rows, columns, 2), that each target patch must not use, nor one
+            nearer to it than half a patch; NONE_BARRED bars none.
     """
 
     target: Bytes
@@ -62,11 +67,12 @@ class Patches(NamedTuple):
     side: int
     channels: int
     stride: int
+    barred: Integers = NONE_BARRED
 
 
 def evaluate(patches: Patches, field: Field, active: NDArray[np.bool_]) -> None:
     """Fill in the costs of the field as it is, where patches are active."""
-    _evaluate(*patches, *field, active)
+    _evaluate(*patches, *field, active, counting(patches.side * patches.channels))
 
 
 def improve(
@@ -94,7 +100,8 @@ def improve(
         tries: Random patches looked at before the radius is halved.
     """
     key = hashes(seed, iteration, 1)[0]
-    _improve(*patches, *field, active, iteration, key, radius, tries, BAND_ROWS)
+    counts = counting(patches.side * patches.channels)
+    _improve(*patches, *field, active, counts, iteration, key, radius, tries, BAND_ROWS)
 
 
 @kernel
@@ -104,6 +111,7 @@ def difference(
     place: tuple[int, int, int, int],
     side: int,
     channels: int,
+    counts: Bytes,
     limit: int,
 ) -> np.int64:
     """Return the squared difference of two patches, or any number >= limit if it is that large.
@@ -111,19 +119,22 @@ def difference(
     `place` is the row and column of the target's patch, then of the source's.
     """
     total = np.int64(0)
-    length = side * channels
     left, other_left = place[1] * channels, place[3] * channels
     for line in range(side):
-        ours = target[place[0] + line, left : left + length]
-        theirs = source[place[2] + line, other_left : other_left + length]
-        part = np.int32(0)
-        for i in range(length):
-            step = np.int32(ours[i]) - np.int32(theirs[i])
-            part += step * step
-        total += part
+        row, other_row = place[0] + line, place[2] + line
+        for i in range(0, side * channels, WIDTH):
+            total += squares(target, row, left + i, source, other_row, other_left + i, counts, i)
         if total >= limit:
             return total
     return total
+
+
+@kernel
+def _is_barred(barred: Integers, y: int, x: int, v: int, u: int, side: int) -> bool:
+    if barred.shape[0] == 0:
+        return False
+    near = 2 * abs(v - barred[y, x, 0]) < side and 2 * abs(u - barred[y, x, 1]) < side
+    return bool(near)
 
 
 @parallel_kernel
@@ -134,10 +145,12 @@ def _evaluate(
     side: int,
     channels: int,
     stride: int,
+    barred: Integers,
     rows: Integers,
     columns: Integers,
     costs: Integers,
     active: NDArray[np.bool_],
+    counts: Bytes,
 ) -> None:
     for y in prange(rows.shape[0]):
         for x in range(rows.shape[1]):
@@ -146,9 +159,11 @@ def _evaluate(
             v, u = rows[y, x], columns[y, x]
             penalty = penalties[v, u]
             costs[y, x] = NEVER
-            if penalty < NEVER:
+            if penalty < NEVER and not _is_barred(barred, y, x, v, u, side):
                 place = (y * stride, x * stride, v, u)
-                costs[y, x] = penalty + difference(target, source, place, side, channels, NEVER)
+                costs[y, x] = penalty + difference(
+                    target, source, place, side, channels, counts, NEVER
+                )
 
 
 @parallel_kernel
@@ -159,10 +174,12 @@ def _improve(
     side: int,
     channels: int,
     stride: int,
+    barred: Integers,
     rows: Integers,
     columns: Integers,
     costs: Integers,
     active: NDArray[np.bool_],
+    counts: Bytes,
     iteration: int,
     key: np.uint64,
     radius: int,
@@ -192,10 +209,10 @@ def _improve(
                     if not (0 <= v < bottom and 0 <= u < right) or (v == best_v and u == best_u):
                         continue
                     penalty = penalties[v, u]
-                    if penalty < best:
+                    if penalty < best and not _is_barred(barred, y, x, v, u, side):
                         place = (y * stride, x * stride, v, u)
                         cost = penalty + difference(
-                            target, source, place, side, channels, best - penalty
+                            target, source, place, side, channels, counts, best - penalty
                         )
                         if cost < best:
                             best, best_v, best_u = cost, v, u
@@ -207,10 +224,10 @@ def _improve(
                     v = low_v + below(bits, min(bottom, best_v + reach + 1) - low_v)
                     u = low_u + below(bits >> np.uint64(32), min(right, best_u + reach + 1) - low_u)
                     penalty = penalties[v, u]
-                    if penalty < best:
+                    if penalty < best and not _is_barred(barred, y, x, v, u, side):
                         place = (y * stride, x * stride, v, u)
                         cost = penalty + difference(
-                            target, source, place, side, channels, best - penalty
+                            target, source, place, side, channels, counts, best - penalty
                         )
                         if cost < best:
                             best, best_v, best_u = cost, v, u

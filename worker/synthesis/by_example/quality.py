@@ -64,8 +64,8 @@ def quality(place: Integers, exemplar: Exemplar) -> Figures:
     for scale in (2, 4, 8):
         ours, known = halved(ours, known)
         theirs, usable = halved(theirs, usable)
-        figures[f"to_exemplar_{scale}"] = _distance(ours, known, theirs, usable)
-        figures[f"from_exemplar_{scale}"] = _distance(theirs, usable, ours, known)
+        figures[f"to_exemplar_{scale}"] = patch_distance(ours, known, theirs, usable)
+        figures[f"from_exemplar_{scale}"] = patch_distance(theirs, usable, ours, known)
     return figures
 
 
@@ -133,7 +133,7 @@ def _share(part: Mask, whole: Mask) -> float:
     return round(float(part.sum() / max(1, whole.sum())), 4)
 
 
-def _distance(ours: Bytes, known: Mask, theirs: Bytes, usable: Mask) -> float | None:
+def patch_distance(ours: Bytes, known: Mask, theirs: Bytes, usable: Mask) -> float | None:
     """Return the mean distance of some of our patches from their nearest."""
     fits = min(*ours.shape[:2], *theirs.shape[:2]) >= 2 * _PATCH
     if not fits or max(ours[..., 0].size, theirs[..., 0].size) > _MOST_PIXELS:

@@ -36,6 +36,8 @@ class Task:
         fixed: Which target pixels stay, (height, width), or None for none.
         target: Their features, (height, width, channels), where any are fixed.
         variety: How strongly patches are kept from being used too often; 1 is ordinary.
+        longest_copy: How much of the exemplar's height and width may be copied in one line, 0..1;
+            None for any length.
     """
 
     source: Bytes
@@ -47,6 +49,7 @@ class Task:
     fixed: Mask | None = None
     target: Bytes | None = None
     variety: float = 1.0
+    longest_copy: float | None = None
 
     def keeping(self, target: Bytes, fixed: Mask) -> Task:
         """Return the same task with some finished pixels."""

@@ -24,6 +24,7 @@ def vote(
     features: Bytes,
     place: Integers,
     fixed: NDArray[np.bool_],
+    anew: NDArray[np.bool_],
 ) -> NDArray[np.bool_]:
     """Let patches choose the pixels anew, in place; return which pixels changed.
 
@@ -39,12 +40,25 @@ def vote(
         features: Of the target; more channels than the source has are left alone.
         place: Row and column of the source pixel of every target pixel, (height, width, 2).
         fixed: Pixels that stay, (height, width).
+        anew: Patches that are not as they were at the last vote; only their pixels choose.
     """
     rows, columns, costs = field
     weights = np.empty(costs.shape, np.float32)
     _weigh(costs, weights)
     changed = np.zeros(fixed.shape, np.bool_)
-    _vote(source, rows, columns, weights, *covers[0], *covers[1], features, place, fixed, changed)
+    _vote(
+        source,
+        rows,
+        columns,
+        weights,
+        *covers[0],
+        *covers[1],
+        features,
+        place,
+        fixed,
+        anew,
+        changed,
+    )
     return changed
 
 
@@ -68,6 +82,7 @@ def _vote(
     features: Bytes,
     place: Integers,
     fixed: NDArray[np.bool_],
+    anew: NDArray[np.bool_],
     changed: NDArray[np.bool_],
 ) -> None:
     height, width = fixed.shape
@@ -79,7 +94,7 @@ def _vote(
         us = np.empty(across * down, np.int32)
         shares = np.empty(across * down, np.float32)
         for x in range(width):
-            if fixed[y, x]:
+            if fixed[y, x] or not _held(anew, row_patches[y], column_patches[x]):
                 continue
             count = 0
             for j in range(down):
@@ -111,6 +126,16 @@ def _vote(
                     if features[y, x, channel] != source[v, u, channel]:
                         features[y, x, channel] = source[v, u, channel]
                         changed[y, x] = True
+
+
+@kernel
+def _held(anew: NDArray[np.bool_], rows: Integers, columns: Integers) -> bool:
+    """Return whether any of the patches that hold a pixel is new."""
+    for y in rows:
+        for x in columns:
+            if y >= 0 and x >= 0 and anew[y, x]:
+                return True
+    return False
 
 
 @kernel
