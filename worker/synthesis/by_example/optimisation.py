@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy import ndimage
 
-from worker.synthesis.by_example.long_copies import late
+from worker.synthesis.by_example.long_copies import bar, late
 from worker.synthesis.by_example.patch_grid import PatchGrid
 from worker.synthesis.by_example.patch_match import (
     NEVER,
@@ -27,7 +27,7 @@ from worker.synthesis.by_example.patch_match import (
     lines,
 )
 from worker.synthesis.by_example.pyramid import doubled
-from worker.synthesis.by_example.starting import continued_outwards, random_blocks
+from worker.synthesis.by_example.starting import continued_outwards, fitting_blocks, random_blocks
 from worker.synthesis.by_example.task import levels
 from worker.synthesis.by_example.voting import vote
 from worker.synthesis.by_example.windows import fitting_side, whole_windows
@@ -50,6 +50,10 @@ _STARTS = 8
 _DENSE_BELOW = 160
 _PRESSURE = 0.1
 _NOWHERE = -(2**20)
+_BLOCK = 0.42
+_ROOM = 1.1
+_CUT = 0.95
+_MENDING = 12
 
 
 def optimise(
@@ -71,8 +75,11 @@ def optimise(
         name = f"level {level.depth + 1} of {len(steps)}"
         if level.depth:
             state = _Search(task, level, dense=level.depth + 1 < len(steps)).refining(state)
-        for turn in range(level.depth == 0, _rounds(level)):
-            done = sum(work[: level.depth]) + turn * level.fixed.size
+        rounds = _rounds(level)
+        for turn in range(level.depth == 0, rounds + _MENDING):
+            if turn >= rounds and not (level is steps[-1] and state.bars_long_copies()):
+                break
+            done = sum(work[: level.depth]) + min(turn, rounds) * level.fixed.size
             report(done / sum(work), name)
             state.advance(turn)
             if show is not None and not level.fixed.any():
@@ -102,7 +109,7 @@ class _Search:
         height, width = level.fixed.shape
         side = fitting_side(level.usable, (height, width), level.patch_side)
         stride = 1 if dense or min(height, width) < _DENSE_BELOW or side < 5 else 2
-        self._task, self._level = task, level
+        self._task, self._level, self._finest = task, level, not dense
         self._grid = PatchGrid((height, width), side, stride, task.tileable)
         self._covers = self._grid.cover(0), self._grid.cover(1)
         self._allowed = whole_windows(level.usable, (side, side))
@@ -115,19 +122,24 @@ class _Search:
         self.place = np.zeros((height, width, 2), np.int32)
 
     def random(self, use: int) -> _Search:
-        """Begin with random blocks, or, where pixels are fixed, with what continues them."""
-        side = max(self._grid.side, min(self._level.usable.shape) // 2)
-        limits = self._allowed.shape
-        blocks = random_blocks(self._grid, (limits[0], limits[1]), side, self._task.seed, use)
-        self._field = Field.of(*self._onto_allowed(*blocks))
-        self._active = np.ones(self._grid.counts, bool)
+        """Begin with blocks, or, where pixels are fixed, with what continues them."""
+        grid, seed = self._grid, self._task.seed
+        height, width = self._level.usable.shape
         if self._level.fixed.any():
+            limits = (self._allowed.shape[0], self._allowed.shape[1])
+            side = max(grid.side, min(height, width) // 2)
+            blocks = random_blocks(grid, limits, side, seed, use)
             voted = self._voted.shape[2]
             known = self._features[..., :voted]
             self._features[..., :voted] = continued_outwards(known, self._level.fixed)
+            self._field = Field.of(*self._onto_allowed(*blocks))
             self._active = self._needed
-        else:
-            self._vote()
+            return self
+        size = (max(grid.side, int(_BLOCK * height)), max(grid.side, int(_BLOCK * width)))
+        blocks = fitting_blocks(grid, self._level.source, self._allowed, size, seed, use)
+        self._field = Field.of(*self._onto_allowed(*blocks))
+        self._active = np.ones(grid.counts, bool)
+        self._vote()
         return self
 
     def refining(self, coarser: _Search) -> _Search:
@@ -152,7 +164,8 @@ class _Search:
 
     def advance(self, turn: int) -> None:
         """Let patches look twice for better source patches, then pixels choose anew."""
-        self._bar_long_copies()
+        if self._level.depth == 0:
+            self.bars_long_copies(1.0 if self._finest else _ROOM)
         patches = self._patches()
         if turn == 0:
             evaluate(patches, self._field, self._needed)
@@ -187,25 +200,29 @@ class _Search:
         broken = self._grid.breaks(self._field.rows, self._field.columns)
         self._active = self._needed & (self._grid.holding(changed) | broken)
 
-    def _bar_long_copies(self) -> None:
-        """Let patches in the midst of what is late not use what they use."""
-        share = self._task.longest_copy
-        if share is None:
-            return
-        half = self._grid.side // 2
-        longest = [int(share * length) - half for length in self._level.usable.shape]
-        if min(longest) < self._grid.side:
-            return
-        wraps = self._task.tileable
-        spoilt = late(self.place, (longest[0], longest[1]), wraps=wraps)
-        if not spoilt.any():
-            return
-        rows, columns = self._grid.places(0, half), self._grid.places(1, half)
-        middles = self.place[rows[:, np.newaxis], columns] - half
-        uses = np.stack(self._field[:2], axis=-1)
-        found = spoilt[rows[:, np.newaxis], columns] & (middles == uses).all(axis=-1)
-        self._barred[found] = uses[found]
+    def bars_long_copies(self, room: float = 1.0) -> bool:
+        """Let patches not use what they copy too much of in one line; return if there are any.
+
+        Lines that are too long are made a little shorter than they may be, or they would soon be
+        too long again.
+
+        Args:
+            room: How long lines may become, as a multiple of the longest that is wished.
+        """
+        if self._task.longest_copy is None:
+            return False
+        share = self._task.longest_copy * room
+        shape, wraps = self._level.usable.shape, self._task.tileable
+        for cut in (1.0, _CUT):
+            down, across = (int(share * cut * length) for length in shape)
+            if min(down, across) <= self._grid.side:
+                return False
+            spoilt = late(self.place, (down, across), wraps=wraps)
+            if not spoilt.any():
+                return False
+        found = bar(spoilt, self.place, self._field, self._covers, self._barred)
         self._active |= found
+        return bool(found.any())
 
     def _patches(self) -> Patches:
         return Patches(
