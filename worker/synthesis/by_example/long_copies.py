@@ -1,4 +1,4 @@
-"""Where too much is copied in one piece: the way out that every measure of likeness rewards.
+"""Where too much is copied in one line: the way out that every measure of likeness rewards.
 
 Nothing is as like an exemplar as the exemplar. Lines of pixels that continue each other are
 followed from where they begin; what comes after the longest line that is wished is late, and has to

@@ -4,8 +4,9 @@ The engine behind growing, filling and moving. On each level, from coarse to fin
 turns: every patch of the target looks for its nearest source patch, then every pixel takes the
 source pixel most of its patches propose (Kwatra et al., 2005, with the discrete solver of Han et
 al., 2006, and random search). A patch that has been used more often than its share becomes
-expensive (Kaspar et al., 2015), or smooth places would take over. Pixels that are fixed never
-change, but their neighbours have to fit to them.
+expensive (Kaspar et al., 2015), or smooth places would take over. What copies too much of the
+exemplar in one line is barred from doing so. Pixels that are fixed never change, but their
+neighbours have to fit to them.
 """
 
 from __future__ import annotations
@@ -50,10 +51,10 @@ _STARTS = 8
 _DENSE_BELOW = 160
 _PRESSURE = 0.1
 _NOWHERE = -(2**20)
-_BLOCK = 0.42
-_ROOM = 1.1
+_BLOCK = 0.42  # of the exemplar's sides: as large as can be without being copied too long
+_ROOM = 1.1  # on the coarsest level, where a patch is nearly as large as a block
 _CUT = 0.95
-_MENDING = 12
+_MENDING = 12  # rounds at most, after the last of the finest level
 
 
 def optimise(

@@ -137,7 +137,8 @@ def difference(
 def _is_barred(barred: Integers, side: int, y: int, x: int, v: int, u: int) -> bool:
     if barred.shape[0] == 0:
         return False
-    return 2 * abs(v - barred[y, x, 0]) < side and 2 * abs(u - barred[y, x, 1]) < side
+    near_row = 2 * abs(v - barred[y, x, 0]) < side
+    return bool(near_row and 2 * abs(u - barred[y, x, 1]) < side)
 
 
 @parallel_kernel

@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     Mask = NDArray[np.bool_]
     Integers = NDArray[np.int64]
 
-_EVENNESS = 1.0
-_CHANCE = 0.15
+_EVENNESS, _CHANCE = 1.0, 0.15
+"""What using each pixel once more, and mere chance, weigh beside how well a block continues."""
 
 
 def random_blocks(
@@ -158,7 +158,7 @@ class _Choice:
         rows, columns = self._free.shape
         tall = sums[height : height + rows] - sums[:rows]
         wide = tall[:, width : width + columns] - tall[:, :columns]
-        return wide / (height * width * max(float(self._used.mean()), 1e-6))
+        return np.asarray(wide / (height * width * max(float(self._used.mean()), 1e-6)))
 
 
 def _divided(length: int, side: int) -> Integers:
