@@ -12,6 +12,7 @@ from api_schemas.model_mesh import ModelMesh
 from api_schemas.obstacle import Obstacle
 from api_schemas.requests import RenderRequest, Request
 from api_schemas.textures.image import ImageSpec
+from api_schemas.textures.six_faces import FACES, SixFacesSpec
 from api_schemas.walk import escaped, parts
 
 NAMES_TOLD: Final = 10
@@ -52,8 +53,16 @@ def misuses(request: Request, facts: Mapping[str, AssetFacts]) -> Iterator[Obsta
 
 def _shape(part: Schema, facts: Mapping[str, AssetFacts], pointer: str) -> Iterator[Obstacle]:
     """Tell of a picture of all directions that has not the shape its layout has."""
+    if isinstance(part, SixFacesSpec):
+        yield from _faces(part, facts, pointer)
+        return
     for name in ("texture", "environment"):
         layout, picture = getattr(part, "layout", None), getattr(part, name, None)
+        if isinstance(layout, LayoutSpec) and isinstance(picture, SixFacesSpec):
+            if layout != picture.layout:
+                message = f"six faces in a {picture.arrangement} need the layout of such a cube"
+                yield Obstacle("layout_mismatch", f"{pointer}/layout", message)
+            continue
         if not isinstance(layout, LayoutSpec) or not isinstance(picture, ImageSpec):
             continue
         found, (width, height) = facts.get(picture.asset), layout.proportion
@@ -62,6 +71,15 @@ def _shape(part: Schema, facts: Mapping[str, AssetFacts], pointer: str) -> Itera
                 f"{layout.technique} needs {width} to {height}; "
                 f"the picture is {found.width} x {found.height}"
             )
+            yield Obstacle("layout_mismatch", f"{pointer}/{name}/asset", message)
+
+
+def _faces(cube: SixFacesSpec, facts: Mapping[str, AssetFacts], pointer: str) -> Iterator[Obstacle]:
+    for name in FACES:
+        face = getattr(cube, name)
+        found = facts.get(face.asset) if isinstance(face, ImageSpec) else None
+        if isinstance(found, ImageFacts) and found.width != found.height:
+            message = f"a face is square; the picture is {found.width} x {found.height}"
             yield Obstacle("layout_mismatch", f"{pointer}/{name}/asset", message)
 
 

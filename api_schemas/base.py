@@ -18,6 +18,7 @@ class Schema(BaseModel):
         extra="forbid",
         strict=True,
         allow_inf_nan=False,
+        defer_build=True,
     )
 
 
@@ -32,16 +33,18 @@ def _different(items: list[Any]) -> list[Any]:
     return items
 
 
-Number = Annotated[float, Field(ge=-FLOAT32_MAX, le=FLOAT32_MAX)]
-NonNegative = Annotated[float, Field(ge=0, le=FLOAT32_MAX)]
-Length = Annotated[float, Field(ge=LENGTH_MIN, le=LENGTH_MAX)]
-Coordinate = Annotated[float, Field(ge=-LENGTH_MAX, le=LENGTH_MAX)]
-Angle = Annotated[float, Field(ge=-1000, le=1000)]
+Real = Annotated[float, Field(strict=True, allow_inf_nan=False)]
+"""Says itself what Schema says: an alias in a union is not told the settings of who names it."""
+Number = Annotated[Real, Field(ge=-FLOAT32_MAX, le=FLOAT32_MAX)]
+NonNegative = Annotated[Real, Field(ge=0, le=FLOAT32_MAX)]
+Length = Annotated[Real, Field(ge=LENGTH_MIN, le=LENGTH_MAX)]
+Coordinate = Annotated[Real, Field(ge=-LENGTH_MAX, le=LENGTH_MAX)]
+Angle = Annotated[Real, Field(ge=-1000, le=1000)]
 WHOLE = BeforeValidator(_whole)
 """Goes last in the annotation of an integer field, after its bounds."""
 UNIQUE_ITEMS = AfterValidator(_different)
 """Goes last in the annotation of a list that says `uniqueItems` in its schema."""
-Seed = Annotated[int, Field(ge=0, le=2**32 - 1), WHOLE]
+Seed = Annotated[int, Field(strict=True, ge=0, le=2**32 - 1), WHOLE]
 
 Pair = Annotated[list[Coordinate], Field(min_length=2, max_length=2)]
 Vector = Annotated[list[Coordinate], Field(min_length=3, max_length=3)]

@@ -3,7 +3,7 @@
 import math
 from abc import abstractmethod
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Annotated, ClassVar
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
@@ -11,13 +11,13 @@ from api_schemas.base import WHOLE, Seed
 from api_schemas.cost import Cost
 from api_schemas.families import TextureSpec
 from api_schemas.maps import DATA
-from api_schemas.own_size import FUNCTION_SIZE, LIKE_EXEMPLAR, LIKE_RESULT, OWN_SIZE
-
-if TYPE_CHECKING:
-    from api_schemas.language import Texture
+from api_schemas.members import Texture
+from api_schemas.own_size import FUNCTION_SIZE, LIKE_EXEMPLAR, LIKE_RESULT, OWN_SIZE, Size
 
 EXEMPLAR_SIDE_MAX = 2048
 RESULT_SIDE_MAX = 4096
+MATERIAL = ("normal", "height", "occlusion", "roughness")
+"""Maps of a material beside its colour."""
 ExemplarSide = Annotated[int, Field(ge=1, le=EXEMPLAR_SIDE_MAX), WHOLE]
 ResultSide = Annotated[int, Field(ge=1, le=RESULT_SIDE_MAX), WHOLE]
 
@@ -49,8 +49,18 @@ class FromExemplarSpec(TextureSpec):
     seed: Seed = Field(default=0, description="Another number, another texture of the same kind.")
 
     def cost(self, pixels: int) -> Cost:
-        """Of an exemplar of functions; where its size is known, `cost_from` knows better."""
-        return self.cost_from({"exemplar": math.prod(self.exemplar_size or FUNCTION_SIZE)}, pixels)
+        """Of an exemplar of functions; where its size is known, `cost_at` knows better."""
+        width, height = self.exemplar_size or FUNCTION_SIZE
+        return self.cost_at({"exemplar": (width, height)}, pixels)
+
+    def cost_at(self, sides: Mapping[str, Size], pixels: int) -> Cost:
+        """Estimate the technique alone.
+
+        Args:
+            sides: Width and height of each nested texture, by field name; at least the exemplar's.
+            pixels: How many the picture has that is asked for.
+        """
+        return self.cost_from({name: math.prod(size) for name, size in sides.items()}, pixels)
 
     @abstractmethod
     def cost_from(self, within: Mapping[str, int], pixels: int) -> Cost:
@@ -74,7 +84,39 @@ class GrownSpec(FromExemplarSpec):
     )
 
 
-class KeepingSpec(GrownSpec):
+class GrownMaterialSpec(GrownSpec):
+    """Grows all maps of a material at once: what is found in one is copied from all."""
+
+    layers: ClassVar[tuple[str, ...]] = ("source", *MATERIAL)
+
+    normal: Annotated["Texture | None", LIKE_EXEMPLAR, DATA] = Field(
+        default=None,
+        description="The exemplar's normals, x along u, y along v, z out of the surface. The layer "
+        "normal is made of them; they turn where parts of the exemplar are turned or mirrored.",
+    )
+    normal_range: Literal["unit", "signed"] = Field(
+        default="unit",
+        description="Whether normal, and so its layer, holds 0..1, with 0.5 for none, or the "
+        "numbers themselves.",
+    )
+    height: Annotated["Texture | None", LIKE_EXEMPLAR, DATA] = Field(
+        default=None, description="The exemplar's relief; the layer height is made of it."
+    )
+    occlusion: Annotated["Texture | None", LIKE_EXEMPLAR, DATA] = Field(
+        default=None,
+        description="How much of the sky each of its pixels sees; the layer occlusion is made "
+        "of it.",
+    )
+    roughness: Annotated["Texture | None", LIKE_EXEMPLAR, DATA] = Field(
+        default=None, description="The exemplar's roughness; the layer roughness is made of it."
+    )
+
+    def has_layer(self, name: str) -> bool:
+        """Whether there is such a layer: those of maps that were given."""
+        return super().has_layer(name) and (name not in MATERIAL or getattr(self, name) is not None)
+
+
+class KeepingSpec(GrownMaterialSpec):
     """Grows around parts that are finished already."""
 
     keep: Annotated["Texture | None", LIKE_RESULT] = Field(

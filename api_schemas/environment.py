@@ -7,17 +7,22 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from api_schemas.base import WHOLE, Angle, NonNegative, Schema
-from api_schemas.language import Layout, Texture
 from api_schemas.maps import COLOUR
+from api_schemas.members import Layout, Texture
 
 
 class Surroundings(Schema):
     """The rest of the scene as one shape sees it from its middle."""
 
+    layout: Literal["cube", "hemispheres"] = Field(
+        default="cube",
+        description="What it is rendered to: the six faces of a cube, or two discs, above and "
+        "below, of about as many texels, which are finer there and long at the horizon.",
+    )
     side: Annotated[int, Field(ge=16, le=512), WHOLE] = Field(
         default=128,
-        description="Pixels along each face of the cube that is rendered: more show finer things "
-        "in a mirror.",
+        description="Pixels along each face of the cube, half as many as a disc is wide: more show "
+        "finer things in a mirror.",
     )
 
 
@@ -26,8 +31,7 @@ class Environment(Schema):
 
     texture: Annotated[Texture, COLOUR] = Field(
         description="The light from each direction: an upload with its own pixels, or any "
-        "technique. Alpha is ignored; what is no number is dark, and what is infinite as bright as "
-        "the brightest that is not."
+        "technique. Alpha is ignored."
     )
     layout: Layout = Field(
         default={"technique": "latlong"},
@@ -42,6 +46,11 @@ class Environment(Schema):
     visible: bool = Field(
         default=True,
         description="Whether it is seen where nothing is, unless the scene has a background.",
+    )
+    broken_texels: Literal["mend", "refuse"] = Field(
+        default="mend",
+        description="Whether what is no number counts as dark, and what is infinite as the "
+        "brightest that is finite, or the job fails where there is any.",
     )
     matt: Literal["sum", "harmonics"] = Field(
         default="sum",

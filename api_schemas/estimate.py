@@ -52,6 +52,7 @@ SECONDS_PER_MAP_SAMPLE = {
     "formula": 4e-7,
 }
 SECONDS_PER_PARALLAX_STEP = 2e-8
+SECONDS_PER_STEP = 1e-8
 SECONDS_TO_COMPILE_A_MAP = 0.12
 SECONDS_TO_COMPILE_A_FORMULA = 0.4
 SECONDS_PER_DRAWN_TRIANGLE = 5e-8
@@ -91,15 +92,15 @@ def _textures(value: object, facts: Mapping[str, AssetFacts], size: Size) -> Cos
     for texture in outermost(value, TextureSpec):
         if isinstance(texture, ImageSpec) and (texels := _texels(texture, facts)):
             cost += Cost(texels * SECONDS_PER_TEXEL, texels * BYTES_PER_TEXEL)
-        within = {}
+        within: dict[str, Size] = {}
         for name in type(texture).model_fields:
             inner = getattr(texture, name)
             if isinstance(inner, BRANCHES):
                 sides = size_within(texture, name, size, measure)
-                within[name] = math.prod(sides)
+                within[name] = sides
                 cost += _textures(inner, facts, sides)
         if isinstance(texture, FromExemplarSpec):
-            cost += texture.cost_from(within, math.prod(size))
+            cost += texture.cost_at(within, math.prod(size))
         else:
             cost += texture.cost(math.prod(size))
     return cost
@@ -166,12 +167,15 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
         for worn in [*maps, among, _maps(node.displacement)]:
             cost += textures.cost(worn)
         own = MAPS_OF_A_MATERIAL * found.pictures * SECONDS_PER_MAP_SAMPLE["anisotropic"]
-        looks = [own, *map(_seconds_per_sample, maps)]
+        looks = [own, *(_seconds_per_surface(surface, shining) for surface in surfaces)]
         shading = passes * lighting + (sum(looks) if among else max(looks))
+        if environment is not None or node.surroundings is not None:
+            more = max((surface.sky_lookups - 1 for surface in surfaces), default=0)
+            shading += passes * more * SKY_SECONDS_PER_SAMPLE
         # The parts of one model fill the ball side by side as well as one behind the other.
         covered = math.cbrt(found.draws)
         covered *= coverage(found.reach, placed, camera, width / height)
-        if any(surface.alpha_mode == "blend" for surface in surfaces):
+        if any(s.alpha_mode == "blend" and not s.fills_box for s in surfaces):
             covered *= 2  # what is behind its front is shaded too
             cost += Cost(found.pieces * SECONDS_PER_SORTED_TRIANGLE)
         cost += Cost(samples * covered * shading)
@@ -191,6 +195,12 @@ def _maps(value: object) -> list[MAPS]:
 def _seconds_per_sample(maps: Sequence[MAPS]) -> float:
     """Return the seconds that looking up all of them once takes."""
     return sum(_seconds_per_look(item) for item in maps)
+
+
+def _seconds_per_surface(surface: SurfaceSpec, lights: int) -> float:
+    """Return the seconds that all looks of one sample take, where so many lights shine."""
+    looks = surface.looks(lights)
+    return looks * _seconds_per_sample(_maps(surface)) + (looks - 1) * SECONDS_PER_STEP
 
 
 def _seconds_per_look(item: MAPS) -> float:

@@ -8,22 +8,16 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, ClassVar, Literal, Self
+from typing import Annotated, ClassVar, Literal, Self
 
 from pydantic import Field
 
 from api_schemas.base import Schema
 from api_schemas.cost import Cost
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from api_schemas.language import MappableNonNegative
-    from api_schemas.maps import LightMap, NormalMap
-    from api_schemas.relief import BumpMap, HeightMap, ParallaxMap, TangentFrames
+from api_schemas.maps import LightMap, MappableNonNegative, NormalMap, Wrap
+from api_schemas.relief import BumpMap, HeightMap, ParallaxMap, TangentFrames
 
 Meaning = Literal["colour", "data"]
-Wrap = Literal["repeat", "mirror", "clamp", "border"]
 AlphaMode = Literal["opaque", "mask", "blend"]
 
 
@@ -75,6 +69,14 @@ class TextureSpec(TechniqueSpec):
     def inner_size(self, size: tuple[int, int]) -> tuple[int, int]:
         """Return the size that textures within are made at, where this one is made at `size`."""
         return size
+
+    def outer_size(self, size: tuple[int, int]) -> tuple[int, int]:
+        """Return the size of its own pixels, where the largest within it are of a `size`."""
+        return size
+
+    def has_layer(self, name: str) -> bool:
+        """Whether it can tell this layer with the numbers and textures it was given."""
+        return name in self.layers
 
     def refusals(self) -> Iterator[Refusal]:
         """Tell what its numbers make impossible, beyond what its schema refuses."""
@@ -153,11 +155,16 @@ class LayoutSpec(TechniqueSpec):
         return None
 
 
+STREAK_LOOKUPS = 12
+"""How often what is brushed looks at an environment; lib/streak.glsl has the same number."""
+
+
 class SurfaceSpec(TechniqueSpec):
     """Says how a surface sends light to the eye, and how much of what is behind it is seen."""
 
-    needs_tangents: ClassVar[bool] = False
-    """Whether it looks different along u and along v, so that the mesh's tangents matter."""
+    fills_box: ClassVar[bool] = False
+    """Whether it is what is in a box, and not its sides: no other mesh may wear it, and it keeps no
+    light from what is behind it."""
 
     opacity: MappableNonNegative = Field(
         default=1.0,
@@ -199,6 +206,20 @@ class SurfaceSpec(TechniqueSpec):
         default=None,
         description="Baked light that arrives besides the lamps', reflected as ambient light is.",
     )
+
+    def looks(self, lights: int) -> int:
+        """Return how often each sample reads the maps, where so many lights shine."""
+        return 1
+
+    @property
+    def needs_tangents(self) -> bool:
+        """Whether it looks different along u and along v, so that the mesh's tangents matter."""
+        return False
+
+    @property
+    def sky_lookups(self) -> int:
+        """How often it looks at an environment for one sample."""
+        return 1
 
     def filled(self) -> Self:
         """Return the surface with every parameter that follows another one set to its value."""

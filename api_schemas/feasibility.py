@@ -4,13 +4,14 @@ from collections.abc import Iterator, Sequence
 
 from api_schemas.camera import Camera, FramedCamera, ModelCamera
 from api_schemas.cookies import COOKIES_MAX
-from api_schemas.environment import Environment
+from api_schemas.environment import Environment, Surroundings
 from api_schemas.families import SurfaceSpec, TextureSpec
 from api_schemas.geometry import IDENTITY, Affine, Vector3, affine, cross, length, triple
 from api_schemas.light_cost import cookies_of
 from api_schemas.lights import DirectionalLight, Light, SpotLight
 from api_schemas.map_feasibility import formula_obstacles, map_obstacles
 from api_schemas.maps import MAPS_MAX, Map
+from api_schemas.meshes import Box
 from api_schemas.model_mesh import ModelMesh
 from api_schemas.obstacle import Obstacle
 from api_schemas.output import SIDE_MAX, RenderOutput, TextureOutput
@@ -68,7 +69,7 @@ def _limits(request: Request) -> Iterator[Obstacle]:
             "nesting_too_deep", place, f"{levels} levels within each other; at most {LEVELS_MAX}"
         )
     textures, nodes = 0, 0
-    surrounded = any(isinstance(part, Environment) for _, part in parts(request))
+    surrounded = any(isinstance(part, Environment | Surroundings) for _, part in parts(request))
     most = MAPS_MAX - SKY_MAPS * surrounded
     for pointer, part in parts(request):
         textures += isinstance(part, TextureSpec)
@@ -121,8 +122,8 @@ def _slices(request: TextureRequest) -> Iterator[Obstacle]:
 def _layer_names(request: TextureRequest) -> Iterator[Obstacle]:
     texture = request.texture
     for index, name in enumerate(request.output.layers):
-        if name not in texture.layers:
-            known = ", ".join(texture.layers) or "none"
+        if not texture.has_layer(name):
+            known = ", ".join(filter(texture.has_layer, texture.layers)) or "none"
             yield Obstacle(
                 "layer_unknown",
                 f"/output/layers/{index}",
@@ -237,5 +238,16 @@ def _node(node: Node, pointer: str, parent: Affine) -> Iterator[Obstacle]:
             "the transform, with those above it, is not an invertible affine map of usable size",
         )
         return
+    yield from _boxes(node, pointer)
     for index, child in enumerate(node.children):
         yield from _node(child, f"{pointer}/children/{index}", world)
+
+
+def _boxes(node: Node, pointer: str) -> Iterator[Obstacle]:
+    """Yield what fills a box and has none; a box that is displaced is one no more."""
+    if isinstance(node.mesh, Box) and node.displacement is None:
+        return
+    for field in ("mesh", "surface", "surface_map"):
+        for place, part in parts(getattr(node, field), f"{pointer}/{field}"):
+            if isinstance(part, SurfaceSpec) and part.fills_box:
+                yield Obstacle("volume_without_box", place, f"a {part.technique} needs a plain box")

@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Final, Literal, get_args
+from typing import TYPE_CHECKING, Annotated, Final, Literal, TypeAlias, get_args
 
 from pydantic import Field
+from typing_extensions import TypeAliasType
 
-from api_schemas.base import Angle, Color, Number, Pair, Schema
-from api_schemas.families import Meaning, Wrap
+from api_schemas.base import Angle, Color, NonNegative, Number, Pair, Schema
+from api_schemas.members import Coordinates, Layout, Texture, mappable
 
 if TYPE_CHECKING:
-    from api_schemas.language import Coordinates, Layout, Texture
+    from api_schemas.families import Meaning
 
 MAPS_MAX = 24
 """Maps on one surface: with eight to spare, what OpenGL lets a shader read."""
 
+FineDetail = Literal["lost", "roughness"]
+Wrap = Literal["repeat", "mirror", "clamp", "border"]
 PictureFilter = Literal["nearest", "bilinear", "trilinear", "anisotropic"]
 TableFilter = Literal["ripmap", "summed_area"]
 Filter = Literal[PictureFilter, "ewa", TableFilter, "formula"]
@@ -137,6 +140,21 @@ class NumberMap(ScaledMap):
     )
 
 
+class DensityMap(NumberMap):
+    """A texture in the place of a density: in space, unless its coordinates say otherwise."""
+
+    coordinates: Coordinates = Field(
+        default={"technique": "position"},
+        validate_default=True,
+        description="Where on the texture to look. What is no place in space is that of where the "
+        "ray enters.",
+    )
+    filter: Filter = Field(
+        default="trilinear",
+        description="How texels become a point of the ray: anisotropic is slow, formula slower.",
+    )
+
+
 class NormalMap(Map):
     """A texture in the place of a normal: x, y, z along tangent, bitangent and normal.
 
@@ -156,8 +174,26 @@ class NormalMap(Map):
         default="unit",
         description="Whether the picture holds 0..1, with 0.5 for none, or the numbers themselves.",
     )
+    fine_detail: FineDetail = Field(
+        default="lost",
+        description="What becomes of tilts that are finer than a pixel: lost, so that far things "
+        "sparkle or look polished, or roughness, which makes highlights wider and dimmer, as all "
+        "the small ones together are (Toksvig, 2005).",
+    )
     space: Literal["tangent", "object"] = Field(
         default="tangent",
         description="Whether the normals lean from the surface or are the shape's own, which need "
         "no directions of u and v and ignore how the picture is turned.",
     )
+
+
+if TYPE_CHECKING:
+    MappableNumber: TypeAlias = float | NumberMap
+    MappableNonNegative: TypeAlias = float | NumberMap
+    MappableDensity: TypeAlias = float | DensityMap
+    MappableColor: TypeAlias = list[float] | ColorMap
+else:
+    MappableNumber = TypeAliasType("MappableNumber", mappable(Number, NumberMap))
+    MappableNonNegative = TypeAliasType("MappableNonNegative", mappable(NonNegative, NumberMap))
+    MappableDensity = TypeAliasType("MappableDensity", mappable(NonNegative, DensityMap))
+    MappableColor = TypeAliasType("MappableColor", mappable(Color, ColorMap))

@@ -5,7 +5,7 @@ copies pixels, it needs those that are there: its slots say so with a MadeAt.
 """
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
@@ -41,14 +41,14 @@ LIKE_RESULT = MadeAt("result")
 def own_size(texture: TextureSpec, measure: Callable[[ImageSpec], Size]) -> Size:
     """Return the size of a texture's own pixels.
 
-    That is an uploaded picture's, or a technique's own `size`; of what is made of others, that of
-    the largest pixels among them, and FUNCTION_SIZE where there are none.
+    That is an uploaded picture's, or a technique's own `size`; of what is made of others, what it
+    makes (`outer_size`) of the largest pixels among them, and FUNCTION_SIZE where there are none.
 
     Args:
         texture: Of any technique.
         measure: Tells the size of an uploaded picture.
     """
-    return max(_sizes(texture, measure), key=math.prod, default=FUNCTION_SIZE)
+    return _size(texture, measure) or FUNCTION_SIZE
 
 
 def size_within(
@@ -76,13 +76,13 @@ def size_within(
     return own_size(getattr(texture, source), measure)
 
 
-def _sizes(texture: TextureSpec, measure: Callable[[ImageSpec], Size]) -> Iterator[Size]:
+def _size(texture: TextureSpec, measure: Callable[[ImageSpec], Size]) -> Size | None:
     if isinstance(texture, ImageSpec):
-        yield measure(texture)
-    elif texture.sized:
+        return measure(texture)
+    if texture.sized:
         width, height = getattr(texture, "size")  # noqa: B009 every sized technique has one
-        yield (width, height)
-    else:
-        for name in type(texture).model_fields:
-            for inner in outermost(getattr(texture, name), TextureSpec):
-                yield from _sizes(inner, measure)
+        return (width, height)
+    fields = (getattr(texture, name) for name in type(texture).model_fields)
+    within = (_size(inner, measure) for field in fields for inner in outermost(field, TextureSpec))
+    largest = max((size for size in within if size), key=math.prod, default=None)
+    return texture.outer_size(largest) if largest else None

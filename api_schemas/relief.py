@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Literal, TypeAlias
+from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Field
 
 from api_schemas.base import WHOLE, Coordinate, Length, Number
-from api_schemas.maps import DATA, ColorMap, Map, NormalMap, NumberMap
-
-if TYPE_CHECKING:
-    from api_schemas.language import Texture
+from api_schemas.maps import DATA, ColorMap, FineDetail, Map, NormalMap, NumberMap
+from api_schemas.members import Texture
 
 DISPLACED_TRIANGLES_MAX = 2**21
 """Triangles of one mesh after subdivision."""
@@ -38,6 +36,12 @@ class BumpMap(Map):
         default=1.0,
         description="Tilt that a full value means: 1 is 45 degrees along one axis; negative turns "
         "bumps into dents.",
+    )
+    fine_detail: FineDetail = Field(
+        default="lost",
+        description="What becomes of tilts that are finer than a pixel: lost, so that far things "
+        "sparkle or look polished, or roughness, which makes highlights wider and dimmer, as all "
+        "the small ones together are (Olano and Baker, 2010).",
     )
 
 

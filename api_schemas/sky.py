@@ -1,10 +1,12 @@
 """What is made of an environment before it shines: textures as anyone could ask for them."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from api_schemas.cost import Cost
 from api_schemas.environment import Environment, Surroundings
 from api_schemas.layouts.cube import CubeSpec
+from api_schemas.layouts.hemispheres import HemispheresSpec
 from api_schemas.layouts.latlong import LatlongSpec
 from api_schemas.textures.convert_layout import ConvertLayoutSpec
 from api_schemas.textures.image import ImageSpec
@@ -15,11 +17,18 @@ SKY_ROUGHNESS = [0.2, 0.4, 0.6, 0.8, 1.0]
 """Of the levels of a rough cube: lib/environment.glsl counts on equal steps from 0 to 1."""
 SKY_SECONDS_PER_SAMPLE = 1.5e-7
 SKY_SECONDS_TO_COMPILE = 0.5
+_SECONDS_PER_DISC_TEXEL = 3e-6
+_BYTES_PER_DISC_TEXEL = 400.0
 SKY_MAPS = 3
 """Texture units that an environment takes, and maps then cannot."""
 
 SKY_CUBE = CubeSpec(technique="cube", arrangement="column", orientation="gl")
 """How a cube lies that OpenGL takes as it is."""
+SKY_LAYOUTS: Mapping[str, CubeSpec | HemispheresSpec] = {
+    "cube": SKY_CUBE,
+    "hemispheres": HemispheresSpec(technique="hemispheres"),
+}
+"""Of what a thing sees around itself."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +60,11 @@ def surroundings_cost(surroundings: Surroundings, shading: float, drawing: float
     samples = 6 * surroundings.side**2 * 4
     image = ImageSpec(technique="image", asset="0" * 64)
     made = sky_textures(Environment(texture=image)).cost()
-    return made + Cost(samples * shading + 6 * drawing, samples * 20.0)
+    made += Cost(samples * shading + 6 * drawing, samples * 20.0)
+    if surroundings.layout == "cube":
+        return made
+    texels = 2 * (2 * surroundings.side) ** 2
+    return made + Cost(texels * _SECONDS_PER_DISC_TEXEL, texels * _BYTES_PER_DISC_TEXEL)
 
 
 def sky_textures(environment: Environment) -> SkyTextures:

@@ -56,6 +56,7 @@ TABLE: Final[Mapping[str, tuple[int, str]]] = {
     "mipmaps_need_exr": (409, "A PNG holds one size only"),
     "layers_need_exr": (409, "A PNG shows one layer only"),
     "layer_unknown": (409, "The technique has no such layer"),
+    "volume_without_box": (409, "What fills a box has none"),
     "texture_not_solid": (409, "The texture does not fill space"),
     "atlas_too_large": (409, "The slices do not fit beside each other"),
     "over_budget": (409, "The request would take too much time or memory"),

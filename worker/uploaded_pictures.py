@@ -2,6 +2,7 @@
 
 import tempfile
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -9,6 +10,7 @@ from api_schemas.families import Meaning
 from api_schemas.textures.image import ImageSpec
 from worker.errors import AssetMissingError
 from worker.images import image_io
+from worker.images.edges import with_whole_edges
 from worker.images.image import Image
 
 if TYPE_CHECKING:
@@ -34,6 +36,12 @@ class UploadedPictures:
             AssetMissingError: There is no such picture.
             UnusableAssetError: The file is damaged.
         """
+        decoded = self._decoded(spec, meaning)
+        if spec.edge_texels == "halved":
+            return replace(decoded, pixels=with_whole_edges(decoded.pixels))
+        return decoded
+
+    def _decoded(self, spec: ImageSpec, meaning: Meaning) -> Image:
         transfer: Transfer = "srgb" if spec.encoding == "srgb" else "linear"
         use_alpha = spec.alpha == "use"
         if spec.asset in self._embedded:

@@ -6,6 +6,8 @@ from pydantic import Field
 
 from api_schemas.families import LayoutSpec
 
+Arrangement = Literal["column", "row", "cross", "tall_cross"]
+
 _PROPORTIONS = {"column": (1, 6), "row": (6, 1), "cross": (4, 3), "tall_cross": (3, 4)}
 
 
@@ -20,7 +22,7 @@ class CubeSpec(LayoutSpec):
     equation: ClassVar[str] = "(s, t) = ((right, up) / |largest of x, y, z| + 1) / 2 on its face"
 
     technique: Literal["cube"]
-    arrangement: Literal["column", "row", "cross", "tall_cross"] = Field(
+    arrangement: Arrangement = Field(
         default="column",
         description="Where the faces are: below each other, beside each other, or unfolded, four "
         "wide or four high.",

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar, Literal
+from typing import ClassVar, Literal
 
 from pydantic import Field
 
-from api_schemas.families import SurfaceSpec
-
-if TYPE_CHECKING:
-    from api_schemas.language import MappableColor, MappableNonNegative, MappableNumber
+from api_schemas.families import STREAK_LOOKUPS, SurfaceSpec
+from api_schemas.maps import MappableColor, MappableNonNegative, MappableNumber
 
 
 class AshikhminShirleySpec(SurfaceSpec):
     """Brushed and varnished things: an elliptical highlight that brightens at grazing angles."""
 
-    needs_tangents: ClassVar[bool] = True
+    revision: ClassVar[int] = 2
     source: ClassVar[str] = "Ashikhmin and Shirley, 2000"
     equation: ClassVar[str] = (
         "fs = sqrt((nu + 1)(nv + 1)) / (8 pi) "
@@ -45,3 +43,13 @@ class AshikhminShirleySpec(SurfaceSpec):
     emission: MappableColor = Field(
         default=[0.0, 0.0, 0.0], description="Linear radiance the surface adds by itself."
     )
+
+    @property
+    def needs_tangents(self) -> bool:
+        """Scratches have a direction."""
+        return True
+
+    @property
+    def sky_lookups(self) -> int:
+        """A streak is as many mirrors."""
+        return STREAK_LOOKUPS

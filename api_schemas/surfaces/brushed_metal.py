@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar, Literal
+from typing import ClassVar, Literal
 
 from pydantic import Field
 
 from api_schemas.families import SurfaceSpec
-
-if TYPE_CHECKING:
-    from api_schemas.language import MappableColor, MappableNonNegative, MappableNumber
+from api_schemas.maps import MappableColor, MappableNonNegative, MappableNumber
 
 
 class BrushedMetalSpec(SurfaceSpec):
     """Metal with fine scratches in one direction: the dot product of the highlight is mapped."""
 
-    needs_tangents: ClassVar[bool] = True
+    revision: ClassVar[int] = 2
     source: ClassVar[str] = "Hughes et al., 2013, exercise 20.1; Phong, 1975"
     equation: ClassVar[str] = (
         "L_out = emission + Ca La + sum_l [Cd max(0, n.l) + Cs max(0, r^T M v)^n] L_l, "
@@ -49,3 +47,8 @@ class BrushedMetalSpec(SurfaceSpec):
     emission: MappableColor = Field(
         default=[0.0, 0.0, 0.0], description="Linear radiance the surface adds by itself."
     )
+
+    @property
+    def needs_tangents(self) -> bool:
+        """Scratches have a direction."""
+        return True

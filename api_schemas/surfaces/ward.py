@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar, Literal
+from typing import ClassVar, Literal
 
 from pydantic import Field
 
-from api_schemas.families import SurfaceSpec
-
-if TYPE_CHECKING:
-    from api_schemas.language import MappableColor, MappableNonNegative, MappableNumber
+from api_schemas.families import STREAK_LOOKUPS, SurfaceSpec
+from api_schemas.maps import MappableColor, MappableNonNegative, MappableNumber
 
 
 class WardSpec(SurfaceSpec):
     """Light scattered by scratches: an elliptical highlight, fitted to measurements."""
 
-    needs_tangents: ClassVar[bool] = True
+    revision: ClassVar[int] = 2
     source: ClassVar[str] = "Ward, 1992"
     equation: ClassVar[str] = (
         "f = rd / pi + rs exp(-tan^2 d (cos^2 p / ax^2 + sin^2 p / ay^2)) "
@@ -44,3 +42,13 @@ class WardSpec(SurfaceSpec):
     emission: MappableColor = Field(
         default=[0.0, 0.0, 0.0], description="Linear radiance the surface adds by itself."
     )
+
+    @property
+    def needs_tangents(self) -> bool:
+        """Scratches have a direction."""
+        return True
+
+    @property
+    def sky_lookups(self) -> int:
+        """A streak is as many mirrors."""
+        return STREAK_LOOKUPS

@@ -25,3 +25,9 @@ class ImageSpec(TextureSpec):
         default="use",
         description="Whether colour fades with the picture's alpha or is taken as if it had none.",
     )
+    edge_texels: Literal["whole", "halved"] = Field(
+        default="whole",
+        description="Whether the picture's edges run round its outermost texels, or through their "
+        "middles, as OpenEXR and Mitsuba have it of a sky in longitude and latitude: its first and "
+        "last columns are then the same, and its first and last rows the poles.",
+    )

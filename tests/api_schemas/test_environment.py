@@ -8,6 +8,7 @@ from api_schemas.asset_use import misuses
 from api_schemas.assets import ASSET_FACTS, AssetFacts
 from api_schemas.estimate import estimate
 from api_schemas.feasibility import obstacles
+from api_schemas.own_size import size_within
 from api_schemas.requests import RenderRequest, TextureRequest
 
 ASSET = "0" * 64
@@ -80,6 +81,9 @@ def test_environments_and_surroundings_cost() -> None:
     mirrored = estimate(scene({"texture": PICTURE}, surroundings={"side": 512}), facts(256, 128))
 
     assert lit.seconds > plain.seconds + 1
+    discs = {"side": 512, "layout": "hemispheres"}
+    on_discs = estimate(scene({"texture": PICTURE}, surroundings=discs), facts(256, 128))
+    assert on_discs.seconds > mirrored.seconds + 1
     assert mirrored.seconds > lit.seconds + 1
     assert mirrored.bytes > lit.bytes > plain.bytes
 
@@ -93,3 +97,78 @@ def test_a_huge_picture_in_another_layout_is_weighed() -> None:
     cost = estimate(TextureRequest.model_validate(body), facts(512, 256))
 
     assert cost.seconds > 60
+
+
+@pytest.mark.parametrize(
+    ("brushed", "plain"),
+    [
+        ({"technique": "ward"}, {"technique": "phong"}),
+        (
+            {"technique": "metallic_roughness", "anisotropy_strength": {"texture": PICTURE}},
+            {"technique": "metallic_roughness", "anisotropy_rotation": {"texture": PICTURE}},
+        ),
+    ],
+)
+def test_a_streak_of_sky_costs_as_many_mirrors(
+    brushed: dict[str, Any], plain: dict[str, Any]
+) -> None:
+    # A dozen readings of a cube and a picture for each of 4096 x 4096 pixels are no milliseconds.
+    def seconds(surface: dict[str, Any], environment: dict[str, Any] | None) -> float:
+        body = scene(environment, surface=surface).model_dump()
+        body["output"]["size"] = [4096, 4096]
+        return estimate(RenderRequest.model_validate(body), facts(512, 256)).seconds
+
+    sky = {"texture": PICTURE}
+    assert seconds(brushed, sky) > seconds(plain, sky) + 1
+    assert seconds(brushed, None) == pytest.approx(seconds(plain, None), rel=1e-6)
+
+
+FACES = ("front", "right", "back", "left", "top", "bottom")
+
+
+def six(**more: Any) -> dict[str, Any]:
+    return {"technique": "six_faces", **dict.fromkeys(FACES, PICTURE), **more}
+
+
+def test_a_face_of_a_cube_is_square() -> None:
+    request = scene({"texture": six(), "layout": {"technique": "cube"}})
+
+    assert not list(misuses(request, facts(64, 64)))
+    found = list(misuses(request, facts(64, 63)))
+    assert [(o.code, o.pointer) for o in found] == [
+        ("layout_mismatch", f"/scene/environment/texture/{face}/asset") for face in FACES
+    ]
+
+
+@pytest.mark.parametrize(
+    ("layout", "arrangement", "good"),
+    [
+        ({"technique": "cube"}, "column", True),
+        ({"technique": "cube", "arrangement": "cross"}, "cross", True),
+        ({"technique": "cube", "arrangement": "cross"}, "column", False),
+        ({"technique": "cube", "orientation": "gl"}, "column", False),
+        ({"technique": "latlong"}, "column", False),
+    ],
+)
+def test_six_faces_are_read_as_they_lie(
+    layout: dict[str, Any], arrangement: str, good: bool
+) -> None:
+    request = scene({"texture": six(arrangement=arrangement), "layout": layout})
+
+    found = [(o.code, o.pointer) for o in misuses(request, facts(64, 64))]
+
+    assert found == ([] if good else [("layout_mismatch", "/scene/environment/layout")])
+
+
+@pytest.mark.parametrize("arrangement", ["column", "row", "cross", "tall_cross"])
+def test_six_faces_keep_their_own_pixels(arrangement: str) -> None:
+    request = TextureRequest.model_validate(
+        {"texture": {"technique": "convert_layout", "environment": six(arrangement=arrangement)}}
+    )
+
+    size = size_within(request.texture, "environment", (8, 4), lambda picture: (300, 300))
+
+    columns, rows = {"column": (1, 6), "row": (6, 1), "cross": (4, 3), "tall_cross": (3, 4)}[
+        arrangement
+    ]
+    assert size == (300 * columns, 300 * rows)

@@ -12,8 +12,9 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -22,10 +23,13 @@ from api_schemas.families import Meaning, TextureSpec
 from api_schemas.meshes import ModelMesh
 from api_schemas.output import RenderOutput
 from api_schemas.scene import Scene
+from api_schemas.solid import worn_size
 from api_schemas.textures.constant import ConstantSpec
 from api_schemas.textures.image import ImageSpec
 from worker.images.image import Image
+from worker.images.volume import Volume
 from worker.models.model import Model
+from worker.rendering.texture_maker import TextureMaker
 
 SIDE = 512
 FRAMES = 9
@@ -120,8 +124,13 @@ def our_frame(maps: int, filter_name: str, supersampling: int) -> Callable[[], o
     return frame_of([node(ball(), surface)], supersampling)
 
 
-def frame_of(nodes: list[dict[str, Any]], supersampling: int = 1) -> Callable[[], object]:
-    """Return a function that draws the nodes, from the request's scene to float pixels."""
+def frame_of(
+    nodes: list[dict[str, Any]], supersampling: int = 1, **scene_members: Any
+) -> Callable[[], object]:
+    """Return a function that draws the nodes, from the request's scene to float pixels.
+
+    What else is named of the scene takes the place of its camera, its lights and so on.
+    """
     # Imported late: a first draw is measured without it, and stock pyrender has its own context.
     from worker.rendering.renderer import render  # noqa: PLC0415
 
@@ -134,17 +143,25 @@ def frame_of(nodes: list[dict[str, Any]], supersampling: int = 1) -> Callable[[]
             ],
             "nodes": nodes,
         }
+        | scene_members
     )
     output = RenderOutput(size=[SIDE, SIDE], supersampling=supersampling)
-    return lambda: list(render(scene, output, noise, no_model, lambda fraction, stage: None).bands)
+    maker = TextureMaker(noise, no_volume, lambda spec, *, solid, meaning="colour": None)
+    return lambda: list(render(scene, output, maker, no_model, lambda fraction, stage: None).bands)
 
 
-def noise(spec: TextureSpec, meaning: Meaning, side: int = 1024) -> Image:
+def noise(
+    spec: TextureSpec,
+    meaning: Meaning,
+    proportion: tuple[int, int] = (1, 1),
+    rendered: Mapping[str, Image] = MappingProxyType({}),
+    side: int = 1024,
+) -> Image:
     """A picture per constant, whose value is the seed; other textures as they are."""
     if not isinstance(spec, ConstantSpec):
         from worker.synthesis import synthesize  # noqa: PLC0415  a first draw has none
 
-        return synthesize(spec, spec.surface_size, no_picture, meaning)
+        return synthesize(spec, worn_size(spec, proportion), no_picture, meaning)
     assert isinstance(spec.value, float)
     random = np.random.default_rng(int(spec.value))
     channels = 3 if meaning == "colour" else 1
@@ -154,6 +171,11 @@ def noise(spec: TextureSpec, meaning: Meaning, side: int = 1024) -> Image:
 def no_picture(spec: ImageSpec, meaning: Meaning) -> Image:
     """Fail: these scenes hold no uploads, and would not be what is measured."""
     raise AssertionError(f"a picture {spec.asset} in a scene without uploads")
+
+
+def no_volume(spec: TextureSpec, meaning: Meaning) -> Volume:
+    """Fail as `no_picture` does."""
+    raise AssertionError(f"a volume of {spec.technique} in a scene without any")
 
 
 def no_model(mesh: ModelMesh) -> Model:

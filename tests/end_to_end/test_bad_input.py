@@ -134,3 +134,28 @@ def test_what_the_schema_refuses_is_told_with_its_place(client, change, pointer)
 
     assert answer.status_code == 422
     assert [error["pointer"] for error in answer.json()["problems"]] == [pointer]
+
+
+@pytest.mark.parametrize(
+    ("texture", "code", "pointer"),
+    [
+        ({"technique": "turing", "time_step": 9.0}, "time_step_unstable", "/texture/time_step"),
+        ({"technique": "schnakenberg", "a": 0.0, "b": 0.0}, "no_steady_state", "/texture"),
+    ],
+)
+def test_a_reaction_that_cannot_run_is_refused_before_it_does(client, texture, code, pointer):
+    answer = client.post("/v1/textures", json={"texture": texture})
+
+    assert answer.status_code == 409
+    assert (answer.json()["code"], answer.json()["pointer"]) == (code, pointer)
+
+
+def test_a_reaction_that_runs_away_fails_by_name(client):
+    # At rest it is 4 everywhere; what begins a billion times above has no end
+    flood = {"technique": "constant", "value": [4e9, 4e9]}
+    texture = {"technique": "turing", "size": [32, 32], "start": flood}
+
+    answer = client.post("/v1/textures", json={"texture": texture}, headers={"Accept": "image/png"})
+
+    assert answer.status_code == 409
+    assert answer.json()["failure"]["code"] == "reaction_diverged"

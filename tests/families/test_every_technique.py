@@ -11,9 +11,10 @@ from api_schemas.assets import ImageFacts
 from api_schemas.estimate import estimate
 from api_schemas.families import TextureSpec
 from api_schemas.feasibility import obstacles
-from api_schemas.language import FAMILIES, Texture
+from api_schemas.language import FAMILIES
 from api_schemas.layouts.cube import CubeSpec
 from api_schemas.maps import Map
+from api_schemas.members import Texture
 from api_schemas.output import RenderOutput, TextureOutput
 from api_schemas.requests import RenderRequest, TextureRequest
 from api_schemas.scene import Scene
@@ -41,6 +42,7 @@ STAGE = {
     ],
 }
 BALL = {"mesh": {"type": "sphere"}}
+BOX = {"mesh": {"type": "box"}}
 
 
 def picture(spec, meaning):
@@ -135,7 +137,8 @@ def test_any_valid_surface_is_drawn_finite_deterministic_and_leaves_its_spec_alo
     @settings(max_examples=8)
     @given(bodies(FAMILIES["surfaces"][name], levels=1, number_limit=100))
     def holds(surface):
-        scene = Scene.model_validate({**STAGE, "nodes": [{**BALL, "surface": surface}]})
+        shape = BOX if FAMILIES["surfaces"][name].fills_box else BALL
+        scene = Scene.model_validate({**STAGE, "nodes": [{**shape, "surface": surface}]})
         if list(obstacles(RenderRequest(scene=scene))) or any(map(faceless, parts(scene))):
             return
         before = copy.deepcopy(scene)
@@ -144,7 +147,7 @@ def test_any_valid_surface_is_drawn_finite_deterministic_and_leaves_its_spec_alo
 
         assert pixels.shape == (*SIZE[::-1], 4)
         assert np.isfinite(pixels).all()
-        assert pixels[..., 3].any() or surface.get("alpha_mode", "opaque") != "opaque"
+        assert pixels[..., 3].any() or scene.nodes[0].surface.alpha_mode != "opaque"
         assert pixels.tobytes() == drawn(scene).tobytes()
         assert scene == before
 

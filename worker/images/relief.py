@@ -1,12 +1,13 @@
 """Pictures of relief made ready for filtering: numbers of which means are meaningful."""
 
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from api_schemas.base import FLOAT32_MAX
-from api_schemas.families import Wrap
+from api_schemas.maps import Wrap
 from api_schemas.relief import BumpEncoding
 from worker.images.image import Image
 from worker.images.packed_floats import unpacked
@@ -16,9 +17,17 @@ _BYTE_MAX = 255
 
 @dataclass(frozen=True, slots=True)
 class Decoded:
-    """Asks for the tilts that a bump map's texels mean."""
+    """Asks for the tilts that a bump map's texels mean, and for the sum of their squares."""
 
     encoding: BumpEncoding
+    squares: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Normals:
+    """Asks for unit normals, of 0..1 with .5 for none or of the numbers themselves."""
+
+    range: Literal["unit", "signed"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,14 +48,15 @@ class Flat:
     """Asks for a picture as it is, and never for a volume."""
 
 
-Preparation = Decoded | Slopes | Unpacked | Flat
+Preparation = Decoded | Normals | Slopes | Unpacked | Flat
 
 
 def prepared(image: Image, preparation: Preparation | None) -> Image:
     """Return what a preparation asks for, or the picture itself.
 
-    Decoded: two channels, tilts along u and v. Slopes: three channels: the height, and its change
-    per tile along u and along v. Unpacked: one channel. What is no number is 0.
+    Decoded: two channels, tilts along u and v, and their squares' sum if asked for. Normals: three
+    channels of unit length, upright where there is none. Slopes: three channels: the height, and
+    its change per tile along u and along v. Unpacked: one channel. What is no number is 0.
     """
     if preparation is None or isinstance(preparation, Flat):
         return image
@@ -54,8 +64,10 @@ def prepared(image: Image, preparation: Preparation | None) -> Image:
         return Image(unpacked(image.pixels)[..., np.newaxis], "data")
     finite = np.nan_to_num(image.pixels, posinf=FLOAT32_MAX, neginf=-FLOAT32_MAX)
     if isinstance(preparation, Decoded):
-        pair = finite[..., [0, min(1, image.channels - 1)]]
-        return Image(decode(pair, preparation.encoding), "data")
+        pair = decode(finite[..., [0, min(1, image.channels - 1)]], preparation.encoding)
+        return Image(with_squares(pair) if preparation.squares else pair, "data")
+    if isinstance(preparation, Normals):
+        return Image(unit_normals(_xyz(finite), preparation.range), "data")
     channel = 0 if image.channels == 1 and preparation.channel < 3 else preparation.channel
     if channel >= image.channels:
         flat = np.zeros((*finite.shape[:2], 3), dtype=np.float32)
@@ -80,6 +92,36 @@ def decode(texels: NDArray[np.floating], encoding: BumpEncoding) -> NDArray[np.f
     byte = np.rint(np.clip(values, 0, 1) * _BYTE_MAX)
     signed = np.where(byte > 127, byte - 256, byte)
     return (np.maximum(signed, -127) / 127).astype(np.float32)
+
+
+def with_squares(tilts: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Give tilts (h, w, 2) with the sum of their squares, of which means tell how they vary."""
+    squares = np.square(tilts.astype(np.float64)).sum(axis=-1, keepdims=True)
+    known: NDArray[np.float64] = np.concatenate([tilts, squares], axis=-1)
+    return np.clip(known, -FLOAT32_MAX, FLOAT32_MAX).astype(np.float32)
+
+
+def unit_normals(
+    texels: NDArray[np.floating], number_range: Literal["unit", "signed"]
+) -> NDArray[np.float32]:
+    """Give the unit vectors (h, w, 3) that texels mean; what has no length is (0, 0, 1)."""
+    held = texels.astype(np.float64)
+    if number_range == "unit":
+        held = 2 * held - 1
+    held /= np.maximum(np.abs(held).max(axis=-1, keepdims=True), 1e-30)
+    length = np.linalg.norm(held, axis=-1, keepdims=True)
+    upright = np.array([0.0, 0.0, 1.0])
+    unit = np.where(length > 0, held / np.where(length > 0, length, 1), upright)
+    return np.asarray(unit, dtype=np.float32)
+
+
+def _xyz(pixels: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Return three channels as a shader reads them: grey is all of them, a missing blue is 0."""
+    channels = pixels.shape[-1]
+    if channels == 1:
+        return np.repeat(pixels, 3, axis=-1)
+    missing = np.zeros((*pixels.shape[:-1], max(3 - channels, 0)), dtype=np.float32)
+    return np.concatenate([pixels[..., :3], missing], axis=-1)
 
 
 def with_slopes(heights: NDArray[np.float32], wrap: tuple[Wrap, Wrap]) -> NDArray[np.float32]:

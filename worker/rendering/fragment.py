@@ -1,5 +1,6 @@
 """The fragment shader of a surface: its chunk, and generated code that fills its parameters."""
 
+import re
 from collections.abc import Sequence
 from functools import partial
 
@@ -14,7 +15,7 @@ from worker.rendering.lookup_fragment import (
     texels,
 )
 from worker.rendering.relief_fragment import aside, relief_chunks, tilts
-from worker.rendering.shading import is_lit
+from worker.rendering.shading import has_lobe, is_lit
 from worker.rendering.shading_layout import (
     LightLayout,
     LookupLayout,
@@ -26,6 +27,7 @@ from worker.rendering.shading_layout import (
 VERSION = "#version 410 core"
 _MAIN = ("base_color", "diffuse_color", "color")
 """Parameters whose map is the surface's picture, rather than any other one."""
+_ASKED = re.compile(r"^\w+ (\w+)_at\(SurfacePoint point\);", re.MULTILINE)
 _SELECTED = ["uniform int selected;", "uniform float selected_last;"]
 _BY_OPACITY = {
     "mask": "    if (opacity < alpha_cutoff) discard;",
@@ -107,6 +109,8 @@ def _fragment(layout: ShadingLayout, lights: LightLayout, layered: bool, plane: 
     parameters = [*layout.parameters, *(parameter for parameter in others if parameter)]
     chunks = [f"lib/{'infinite_plane' if plane else 'fragment'}.glsl"]
     chunks += [f"surfaces/{layout.technique}.glsl"]
+    if has_lobe(layout.technique):
+        chunks.append(f"lobes/{'streaked' if layout.streaked else 'round'}.glsl")
     chunks += relief_chunks(layout)
     chunks += ["lib/opacity.glsl"] if layout.opacity else []
     chunks += ["lib/layers.glsl"] if layered else []
@@ -118,6 +122,7 @@ def _fragment(layout: ShadingLayout, lights: LightLayout, layered: bool, plane: 
     lines += light_lines(lights) if lit else []
     for parameter in parameters:
         lines += _declarations(parameter)
+    lines += _elsewhere(layout)
     lines += _SELECTED if layout.selection else []
     lines += ["void main() {", "    SurfacePoint point = surface_point();"]
     lines += _relief(layout)
@@ -137,6 +142,22 @@ def _fragment(layout: ShadingLayout, lights: LightLayout, layered: bool, plane: 
     if plane:
         lines.append("    if (!on_plane()) discard;")
     return "\n".join([*lines, "}"])
+
+
+def _elsewhere(layout: ShadingLayout) -> list[str]:
+    """Write the functions of a chunk that ask what a parameter is at another point."""
+    asked = set(_ASKED.findall(chunk(f"surfaces/{layout.technique}.glsl")))
+    lines = []
+    for parameter in layout.parameters:
+        if parameter.name in asked:
+            numbers = [] if parameter.lookup is None else [parameter.lookup]
+            lines += [
+                f"{parameter.type} {parameter.name}_at(SurfacePoint point) {{",
+                *texels(layout, numbers, partial(place_of, layout)),
+                f"    return {_value(parameter)};",
+                "}",
+            ]
+    return lines
 
 
 def _selection(layout: ShadingLayout) -> list[str]:

@@ -21,6 +21,8 @@ _NEAREST = 1e-4
 _GUARD = 2
 """Texels by which a map reaches beyond what it must show, besides the radius of its soft edge."""
 _SMALLEST = 1e-30
+_FLATTEST = 1e-6
+"""Of the width or place of what is drawn: a map of a single point is still one of numbers."""
 
 Lamp = DirectionalLight | PointLight | SpotLight
 Vector = NDArray[np.float64]
@@ -115,9 +117,9 @@ def _parallel(lamp: DirectionalLight, number: int, corners: NDArray[np.float64])
     axes = light_axes(lamp.direction)
     seen = corners @ axes.T if len(corners) else np.zeros((1, 3))
     low, high = seen.min(axis=0), seen.max(axis=0)
-    size = max((high - low).max(), _SMALLEST)
+    size = max((high - low).max(), _FLATTEST * np.abs(seen).max(), _FLATTEST**2)
     room = shadow.resolution - 2 * (_GUARD + shadow.radius)
-    width = max(high[0] - low[0], high[1] - low[1], 1e-6 * size)
+    width = max(high[0] - low[0], high[1] - low[1], _FLATTEST * size)
     start = np.append((low[:2] + high[:2]) / 2, low[2] - 0.01 * size)
     return LightView(
         light=number,

@@ -247,6 +247,10 @@ class FlatScene(pyrender.Scene):  # type: ignore[misc]
         program.set("eye_from_object", self.eye_from_object[primitive.number])
         program.set("normal_from_object", self.normal_from_object[primitive.number])
         program.set("handedness", -1.0 if primitive.mirrored else 1.0)
+        if "box_low" in program.uniforms:
+            low, high = primitive.mesh.bounds
+            program.set("box_low", low)
+            program.set("box_high", high)
 
     def get_pose(self, node: PlacedNode) -> Matrix:
         """Return where a node stands, without a search for its parents."""

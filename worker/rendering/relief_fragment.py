@@ -21,6 +21,8 @@ def relief_chunks(layout: ShadingLayout) -> list[str]:
         chunks.append(_NORMALS[relief.normal_space][0])
     if relief.bump is not None:
         chunks.append("lib/bump_map.glsl")
+    chunks += ["lib/fine_normals.glsl"] if relief.roughened_by_normal else []
+    chunks += ["lib/fine_bumps.glsl"] if relief.roughened_by_bump else []
     if relief.height is not None:
         chunks.append("lib/height_map.glsl")
     return chunks
@@ -54,10 +56,16 @@ def tilts(
         held = f"held_normal(texel_{relief.normal})"
         lines += read(relief.normal)
         lines.append(f"    point.normal = {tilted}(point, vertex_normal, {held});")
+    if relief.roughened_by_normal:
+        mean = f"texel_{relief.normal}.xyz"
+        lines.append(f"    slope_variance += variance_of_normals({mean});")
     leans = []
     if relief.bump is not None:
         lines += read(relief.bump)
         leans.append(f"bump_lean(point, outer_of(point), texel_{relief.bump}.xy)")
+    if relief.roughened_by_bump:
+        moments = f"texel_{relief.bump}.xyz"
+        lines.append(f"    slope_variance += variance_of_bumps({moments});")
     if relief.height is not None:
         lines += read(relief.height)
         number = relief.height

@@ -8,9 +8,11 @@ import numpy as np
 
 from api_schemas.coordinates.uv import UvSpec
 from api_schemas.families import SurfaceSpec
+from api_schemas.layouts.cube import CubeSpec
 from api_schemas.maps import Map, NormalMap
 from api_schemas.relief import AnyMap, BumpMap, HeightMap, ParallaxMap, TangentFrames
-from worker.images.relief import Decoded, Flat, Preparation, Slopes
+from api_schemas.solid import is_carved
+from worker.images.relief import Decoded, Flat, Normals, Preparation, Slopes
 from worker.rendering.lookups import turn
 from worker.rendering.shading_layout import ReliefLayout
 
@@ -41,12 +43,20 @@ def lay_out(surface: SurfaceSpec, look_up: LookUp) -> tuple[ReliefLayout, dict[s
     """Return what the compiler must know of a surface's relief, and its uniforms."""
     uniforms: dict[str, Any] = {}
     normal, bump, height, parallax = None, None, None, None
+    by_normal = by_bump = False
     if surface.normal is not None:
+        by_normal = _roughens(surface.normal)
+        prepared = Normals(surface.normal.range) if by_normal else None
         uniforms |= _normal(surface.normal)
-        normal = look_up(surface.normal, None)
+        normal = look_up(surface.normal, prepared)
+        if by_normal:
+            uniforms |= {"normal_range": (1.0, 0.0), "normal_steeper": surface.normal.strength}
     if surface.bump is not None:
+        by_bump = _roughens(surface.bump)
         uniforms |= _bump(surface.bump)
-        bump = look_up(surface.bump, Decoded(surface.bump.encoding))
+        bump = look_up(surface.bump, Decoded(surface.bump.encoding, squares=by_bump))
+        if by_bump:
+            uniforms["bump_steeper"] = surface.bump.range
     if surface.height is not None:
         uniforms |= _height(surface.height)
         layout = surface.height.layout
@@ -60,11 +70,19 @@ def lay_out(surface: SurfaceSpec, look_up: LookUp) -> tuple[ReliefLayout, dict[s
         normal=normal,
         normal_space=surface.normal.space if surface.normal else "tangent",
         bump=bump,
+        roughened_by_normal=by_normal,
+        roughened_by_bump=by_bump,
         height=height,
         parallax=parallax,
         parallax_method=surface.parallax.method if surface.parallax else "offset",
     )
     return relief, uniforms
+
+
+def _roughens(mapped: NormalMap | BumpMap) -> bool:
+    """Tell whether what is finer than a pixel is told by means of a picture, where there is one."""
+    pictured = mapped.filter != "formula" and not isinstance(mapped.layout, CubeSpec)
+    return mapped.fine_detail == "roughness" and pictured and not is_carved(mapped)
 
 
 def _normal(mapped: NormalMap) -> dict[str, Any]:

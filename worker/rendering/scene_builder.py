@@ -9,7 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from api_schemas.coordinates.uv import UvSpec
+from api_schemas.environment import Surroundings
 from api_schemas.families import SurfaceSpec
+from api_schemas.layouts.cube import CubeSpec
+from api_schemas.layouts.hemispheres import HemispheresSpec
 from api_schemas.lights import Light
 from api_schemas.maps import ColorMap
 from api_schemas.scene import Scene
@@ -32,10 +35,10 @@ LARGEST_LIGHT = 5e36
 
 @dataclass(frozen=True, slots=True)
 class Mirror:
-    """Drawables of one node that see the rest of the scene, and how finely."""
+    """Drawables of one node that see the rest of the scene, and in what picture."""
 
     numbers: tuple[int, ...]
-    side: int
+    spec: Surroundings
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,7 +107,7 @@ class SceneBuilder:
                     item.world_from_object,
                     worn[key][1],
                     item.thing,
-                    item.node.casts_shadows,
+                    item.node.casts_shadows and not item.surface.fills_box,
                     item.name,
                 )
             )
@@ -152,9 +155,11 @@ class SceneBuilder:
             ),
         )
 
-    def sky_of_faces(self, faces: NDArray[np.float32], maker: TextureMaker) -> Sky:
-        """Return the sky of a cube (6, side, side, 3) that was rendered."""
-        return self._skies.sky_of_faces(faces, maker)
+    def rendered_sky(
+        self, picture: NDArray[np.float32], layout: CubeSpec | HemispheresSpec, maker: TextureMaker
+    ) -> Sky:
+        """Return the sky of a picture (height, width, 3) of a scene."""
+        return self._skies.rendered_sky(picture, layout, maker)
 
     def trim(self) -> None:
         """Free what exceeds the bounds; call it when nothing is being drawn."""
@@ -186,5 +191,5 @@ def _mirrors(placed: list[Placed]) -> tuple[Mirror, ...]:
     for of_node in numbers.values():
         spec = placed[of_node[0]].node.surroundings
         assert spec is not None
-        found.append(Mirror(tuple(of_node), spec.side))
+        found.append(Mirror(tuple(of_node), spec))
     return tuple(found)

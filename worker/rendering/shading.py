@@ -50,11 +50,20 @@ class Selection:
     number: int
 
 
-@functools.cache
 def is_lit(technique: str) -> bool:
     """Tell whether a surface asks for the lights: others need no program for their shadows."""
+    return "lib/lights.glsl" in _chunks_of(technique)
+
+
+def has_lobe(technique: str) -> bool:
+    """Tell whether a surface leaves the shape of its highlights to a chunk of its program."""
+    return "lib/lobe.glsl" in _chunks_of(technique)
+
+
+@functools.cache
+def _chunks_of(technique: str) -> tuple[str, ...]:
     name = f"surfaces/{technique}.glsl"
-    return "lib/lights.glsl" in join(chunk(name), name).chunks
+    return join(chunk(name), name).chunks
 
 
 @functools.cache
@@ -108,6 +117,7 @@ def shade(
             PictureLayout(picture.sampling, picture.texture.format) for picture in pictures
         ),
         tables=tuple(tables),
+        streaked=surface.needs_tangents,
     )
     uniforms = plan.uniforms | plan.lookups.uniforms()
     return Shading(layout, uniforms, pictures, surface.double_sided)

@@ -9,7 +9,7 @@ from worker.rendering.calls import Call
 from worker.rendering.samplers import Sampling
 from worker.rendering.textures import TextureFormat
 
-SkyKind = Literal["none", "latlong", "cube"]
+SkyKind = Literal["none", "latlong", "cube", "hemispheres"]
 """The chunks of shaders/skies."""
 
 SPACE_FILTERS: tuple[Filter, ...] = ("nearest", "bilinear", "trilinear")
@@ -110,6 +110,8 @@ class ReliefLayout:
         normal: The lookup of a map of normals, if there is one.
         normal_space: What these are relative to.
         bump: The lookup of a bump map.
+        roughened_by_normal: Whether what of the map of normals is finer than a pixel is roughness.
+        roughened_by_bump: The same of the bump map.
         height: The lookup of a relief's heights and slopes.
         parallax: The lookup of a relief that the eye looks into.
         parallax_method: How it looks.
@@ -118,6 +120,8 @@ class ReliefLayout:
     normal: int | None
     normal_space: Literal["tangent", "object"]
     bump: int | None
+    roughened_by_normal: bool
+    roughened_by_bump: bool
     height: int | None
     parallax: int | None
     parallax_method: Literal["offset", "occlusion"]
@@ -144,6 +148,7 @@ class ShadingLayout:
         lookups: Readings of pictures.
         pictures: Texture units of maps, then of tables.
         tables: What the surface's own tables are called.
+        streaked: Whether highlights may be longer in one direction than in others.
     """
 
     technique: str
@@ -156,6 +161,7 @@ class ShadingLayout:
     lookups: tuple[LookupLayout, ...]
     pictures: tuple[PictureLayout, ...]
     tables: tuple[str, ...]
+    streaked: bool
 
     @property
     def has_holes(self) -> bool:

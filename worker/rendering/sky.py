@@ -14,12 +14,16 @@ from numpy.typing import NDArray
 
 from api_schemas.environment import Environment
 from api_schemas.families import Meaning, TextureSpec
+from api_schemas.layouts.cube import CubeSpec
+from api_schemas.layouts.hemispheres import HemispheresSpec
 from api_schemas.layouts.latlong import LatlongSpec
-from api_schemas.sky import SKY_CUBE, SKY_ROUGHNESS, SkyTextures, sky_textures
+from api_schemas.sky import SKY_ROUGHNESS, SkyTextures, sky_textures
 from api_schemas.textures.image import ImageSpec
+from worker.errors import RenderError
 from worker.images.image import Image
 from worker.images.mending import mended
 from worker.images.pyramids import mip_chain
+from worker.layouts import filled
 from worker.rendering.cache import ByteCache
 from worker.rendering.calls import choice
 from worker.rendering.cube_textures import CubeTexture, faces_in
@@ -27,6 +31,7 @@ from worker.rendering.gl_context import GL
 from worker.rendering.programs import Program
 from worker.rendering.samplers import SamplerCache, Sampling
 from worker.rendering.shading_layout import SkyKind
+from worker.rendering.sky_harmonics import harmonics_in
 from worker.rendering.texture_maker import TextureMaker
 from worker.rendering.textures import Texture
 
@@ -69,20 +74,31 @@ class Sky:
             GL.glBindSampler(unit, samplers.get(_SAMPLING, (0.0,) * 4) if flat else 0)
 
 
+@dataclass(frozen=True, slots=True)
+class _Matt:
+    """Irradiance over pi: a cube, and the nine numbers that hold it where it is so smooth."""
+
+    cube: CubeTexture
+    uniforms: Mapping[str, Any]
+
+
 class Skies:
     """Keeps the environments of earlier scenes, by content."""
 
     def __init__(self) -> None:
         """Begin with nothing in OpenGL."""
         self._cubes = ByteCache[CubeTexture](CUBES_BYTES_MAX, CubeTexture.delete)
+        self._matt = ByteCache[_Matt](CUBES_BYTES_MAX, lambda matt: matt.cube.delete())
         self._pictures = ByteCache[Texture](CUBES_BYTES_MAX, Texture.delete)
 
     def sky(self, spec: Environment, maker: TextureMaker) -> Sky:
         """Make or find what a scene's environment needs.
 
         Raises:
-            WorkerError: A texture cannot be made.
+            WorkerError: A texture cannot be made, or has numbers that are refused.
         """
+        if spec.broken_texels == "refuse":
+            _look_for_broken(spec, maker)
         textures = sky_textures(spec)
         uniforms: dict[str, Any] = {
             "sky_from_world": turned(spec.rotation_y),
@@ -93,52 +109,64 @@ class Skies:
             proportion = spec.layout.proportion
             picture = self._pictures.get(
                 spec.texture.model_dump_json(),
-                lambda: _flat(maker.picture(spec.texture, "colour", proportion)),
+                lambda: _flat(maker.picture(spec.texture, "colour", proportion).pixels),
             )
             uniforms["sky_centre"] = choice(spec.layout, "centre")
         else:
             assert textures.whole is not None
             picture = self._cube(textures.whole, maker.picture, sharp_levels)
-        return self._blurred(picture, textures, uniforms, maker.picture)
+        kind: SkyKind = "latlong" if isinstance(picture, Texture) else "cube"
+        return self._blurred(kind, picture, textures, uniforms, maker.picture)
 
-    def sky_of_faces(self, faces: NDArray[np.float32], maker: TextureMaker) -> Sky:
-        """Make or find the same of a cube (6, side, side, 3) that was rendered.
+    def rendered_sky(
+        self, picture: NDArray[np.float32], layout: CubeSpec | HemispheresSpec, maker: TextureMaker
+    ) -> Sky:
+        """Make or find the same of a picture (height, width, 3) of a scene, as SKY_CUBE or discs.
 
         Raises:
             WorkerError: A texture cannot be made.
         """
-        light, _ = mended(faces)
-        column = np.ascontiguousarray(light.reshape(-1, *light.shape[2:]))
-        name = hashlib.sha256(repr(column.shape).encode() + column.tobytes()).hexdigest()
+        light, _ = mended(np.ascontiguousarray(picture))
+        name = hashlib.sha256(repr(light.shape).encode() + light.tobytes()).hexdigest()
         image = ImageSpec(technique="image", asset=name, encoding="linear")
-        spec = Environment(texture=image, layout=SKY_CUBE)
-        rendered = {name: Image(column, "colour")}
+        spec = Environment(texture=image, layout=layout)
+        rendered = {name: Image(light, "colour")}
 
-        def picture(texture: TextureSpec, meaning: Meaning) -> Image:
+        def made(texture: TextureSpec, meaning: Meaning) -> Image:
             return maker.picture(texture, meaning, (1, 1), rendered)
 
+        sharp: Texture | CubeTexture
+        if isinstance(layout, CubeSpec):
+            sharp = self._cubes.get(name, lambda: _uploaded(sharp_levels(light)))
+        else:
+            sharp = self._pictures.get(name, lambda: _flat(filled(layout, light)))
         uniforms = {"sky_from_world": np.eye(3), "sky_intensity": 1.0}
-        sharp = self._cubes.get(name, lambda: _uploaded(sharp_levels(column)))
-        return self._blurred(sharp, sky_textures(spec), uniforms, picture)
+        return self._blurred(layout.technique, sharp, sky_textures(spec), uniforms, made)
 
     def _blurred(
         self,
+        kind: SkyKind,
         picture: Texture | CubeTexture,
         textures: SkyTextures,
         uniforms: Mapping[str, Any],
         maker: Maker,
     ) -> Sky:
+        matt = self._matt.get(
+            textures.matt.model_dump_json(),
+            lambda: _matt(maker(textures.matt, "colour").pixels, textures.matt.method),
+        )
         return Sky(
-            "latlong" if isinstance(picture, Texture) else "cube",
+            kind,
             picture,
             self._cube(textures.rough, maker, _panels),
-            self._cube(textures.matt, maker, lambda pixels: [faces_in(pixels)]),
-            uniforms,
+            matt.cube,
+            {**uniforms, **matt.uniforms},
         )
 
     def trim(self) -> None:
         """Free what exceeds the bounds; call it when nothing is being drawn."""
         self._cubes.trim()
+        self._matt.trim()
         self._pictures.trim()
 
     def _cube(
@@ -150,6 +178,14 @@ class Skies:
         return self._cubes.get(
             spec.model_dump_json(), lambda: _uploaded(levels(maker(spec, "colour").pixels))
         )
+
+
+def _look_for_broken(spec: Environment, maker: TextureMaker) -> None:
+    pixels = maker.picture(spec.texture, "colour", spec.layout.proportion).pixels
+    _, count = mended(pixels[..., : 3 if pixels.shape[2] >= 3 else 1])
+    if count:
+        message = f"{count} numbers of the environment are infinite or no numbers"
+        raise RenderError(message, "/scene/environment/texture", code="environment_texels")
 
 
 def turned(angle: float) -> NDArray[np.float64]:
@@ -175,8 +211,15 @@ def _panels(pixels: NDArray[np.float32]) -> list[NDArray[np.float32]]:
     return levels
 
 
-def _flat(image: Image) -> tuple[Texture, int]:
-    light, _ = mended(image.pixels[..., : 3 if image.channels >= 3 else 1])
+def _matt(column: NDArray[np.float32], method: str) -> tuple[_Matt, int]:
+    smooth = method == "harmonics"
+    numbers = harmonics_in(column) if smooth else np.zeros((9, 3))
+    cube, size = _uploaded([faces_in(column)])
+    return _Matt(cube, {"sky_matt_smooth": smooth, "sky_harmonics": numbers}), size
+
+
+def _flat(pixels: NDArray[np.float32]) -> tuple[Texture, int]:
+    light, _ = mended(pixels[..., : 3 if pixels.shape[2] >= 3 else 1])
     texture = Texture.upload(mip_chain(light), "colour")
     return texture, texture.size_bytes
 

@@ -1,4 +1,8 @@
-"""A scene as one of its things sees it: six pictures of a quarter turn each (T23)."""
+"""A scene as one of its things sees it: six pictures of a quarter turn each (T23).
+
+Two hemispheres are read from them: no projection by a matrix has a half sphere's round rim, and
+triangles would need curved edges.
+"""
 
 import math
 from collections.abc import Sequence
@@ -7,7 +11,12 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from api_schemas.layouts.cube import CubeSpec
+from api_schemas.layouts.hemispheres import HemispheresSpec
+from api_schemas.sky import SKY_CUBE, SKY_LAYOUTS
+from worker import layouts
 from worker.geometry.transforms import Matrix, perspective
+from worker.images.sampling import sample
 from worker.rendering.lighting import lighting
 from worker.rendering.pyrender_adapter import FloatRenderer
 from worker.rendering.pyrender_scene import Drawable, FlatScene, View
@@ -53,8 +62,10 @@ def with_surroundings(
         own = set(mirror.numbers)
         others = [d for number, d in enumerate(built.drawables) if number not in own]
         itself = [built.drawables[number] for number in mirror.numbers]
-        faces = _look_around(built, others, itself, renderer, targets, mirror.side)
-        sky = builder.sky_of_faces(faces, maker)
+        side, layout = mirror.spec.side, SKY_LAYOUTS[mirror.spec.layout]
+        faces = _look_around(built, others, itself, renderer, targets, side)
+        seen = faces if isinstance(layout, CubeSpec) else _discs(faces, layout)
+        sky = builder.rendered_sky(seen.reshape(-1, seen.shape[-2], 3), layout, maker)
         for number in mirror.numbers:
             drawables[number] = replace(drawables[number], sky=sky)
     return replace(built, drawables=tuple(drawables))
@@ -91,6 +102,20 @@ def _look_around(
         seen = targets.resolve(side, side, _SUPERSAMPLING).read(0, side, side)
         faces[face] = seen[:, ::-1, :3]
     return faces
+
+
+def _discs(faces: NDArray[np.float32], layout: HemispheresSpec) -> NDArray[np.float32]:
+    """Return discs (2 side, 4 side, 3), blended from faces (6, side, side, 3)."""
+    side = 2 * faces.shape[1]
+    towards, _ = layouts.direction(layout, layouts.texel_middles(2 * side, side))
+    largest = np.abs(towards).argmax(axis=1)
+    face = 2 * largest + (towards[np.arange(len(towards)), largest] < 0)
+    # Along a column nothing lies left or right of a face, along a row nothing above or below.
+    row = SKY_CUBE.model_copy(update={"arrangement": "row"})
+    u, v = layouts.place(SKY_CUBE, towards)[:, 0], layouts.place(row, towards)[:, 1]
+    places = np.stack([u, v, (face + 0.5) / 6], axis=1)
+    channels = [sample([faces[..., c]], places, ["clamp"] * 3) for c in range(3)]
+    return np.stack(channels, axis=-1).reshape(side, 2 * side, 3).astype(np.float32)
 
 
 def _pose(axes: NDArray[np.float64], middle: NDArray[np.float64]) -> Matrix:

@@ -26,17 +26,18 @@ def matched(a: Image, b: Image) -> tuple[NDArray[np.float32], NDArray[np.float32
     """
     if joint_meaning(a, b) == "data":
         count = max(a.channels, b.channels)
-        return _data_with(a.pixels, count), _data_with(b.pixels, count)
+        return data_with(a.pixels, count), data_with(b.pixels, count)
     alpha = a.channels in (2, 4) or b.channels in (2, 4)
     hues = 3 if max(a.channels, b.channels) > 2 else 1
     return _colour_with(a.pixels, hues, alpha), _colour_with(b.pixels, hues, alpha)
 
 
-def _data_with(pixels: NDArray[np.float32], count: int) -> NDArray[np.float32]:
+def data_with(pixels: NDArray[np.float32], count: int) -> NDArray[np.float32]:
+    """Return data with at least so many channels: one alone is repeated, missing ones are 0."""
     channels = pixels.shape[2]
     if channels == 1:
         return np.repeat(pixels, count, axis=2)
-    return np.pad(pixels, ((0, 0), (0, 0), (0, count - channels)))
+    return np.pad(pixels, ((0, 0), (0, 0), (0, max(0, count - channels))))
 
 
 def _colour_with(pixels: NDArray[np.float32], hues: int, alpha: bool) -> NDArray[np.float32]:

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from api_schemas.dishes import DishSpec, ReactionSpec
-    from worker.stages import Report
+    from worker.preview import Progress
     from worker.synthesis._dish import Cells, Rows
 
     React: TypeAlias = "Callable[[Cells, Cells, tuple[Rows, ...], float], None]"
@@ -86,8 +86,10 @@ def mask_of(spec: DishSpec, image: Image) -> Cells:
     return resample(image.pixels[..., :1], (spec.size[0], spec.size[1]))[..., 0].astype(np.float64)
 
 
-def run(reaction: Reaction, react: React, report: Report = silent) -> tuple[Cells, int, float]:
+def run(reaction: Reaction, react: React, report: Progress = silent) -> tuple[Cells, int, float]:
     """Take the steps: each chemical spreads, then `react` adds what reaction makes of it.
+
+    The dish so far is shown at each look but the last one.
 
     Returns:
         The cells, how many steps were taken, and how fast the fastest chemical changed at the last
@@ -112,12 +114,16 @@ def run(reaction: Reaction, react: React, report: Report = silent) -> tuple[Cell
         react(after, before, parameters, spec.time_step)
         taken += 1
         if taken % _STEPS_PER_LOOK == 0 or taken == spec.steps:
-            report(taken / spec.steps, f"step {taken}")
             change = change_between(before, after, spec.time_step)
             if not np.isfinite(change) or np.abs(after).max() > _TOO_MUCH:
                 raise RenderError(
                     f"the chemicals grew without end within {taken} steps", code="reaction_diverged"
                 )
+            report(
+                taken / spec.steps,
+                f"step {taken}",
+                shown(spec, after, (spec.size[0], spec.size[1])) if taken < spec.steps else None,
+            )
         before, after = after, before
         if taken % _STEPS_PER_LOOK == 0 and change < spec.still_below:
             break
@@ -130,17 +136,23 @@ def change_between(before: Cells, after: Cells, time_step: float) -> float:
         return float(np.abs(after - before)[:, 1:-1, 1:-1].max() / time_step)
 
 
-def outcome_of(reaction: Reaction, react: React, size: tuple[int, int], report: Report) -> Outcome:
+def outcome_of(
+    reaction: Reaction, react: React, size: tuple[int, int], report: Progress
+) -> Outcome:
     """Let a dish react and bring it to (width, height): the chemical shown, and all as layers."""
     spec = reaction.spec
     cells, taken, change = run(reaction, react, report)
-    shown = cells[spec.layers.index(spec.shown())]
-    stretch = spec.range == "stretched"
     return Outcome(
-        picture_of(stretched(shown) if stretch else shown, size),
+        shown(spec, cells, size),
         {name: picture_of(cells[i], size) for i, name in enumerate(spec.layers)},
         told(spec, cells, taken, change),
     )
+
+
+def shown(spec: ReactionSpec, cells: Cells, size: tuple[int, int]) -> Image:
+    """Return the chemical that is asked for, as it is asked for, at (width, height)."""
+    chemical = cells[spec.layers.index(spec.shown())]
+    return picture_of(stretched(chemical) if spec.range == "stretched" else chemical, size)
 
 
 def told(spec: DishSpec, cells: NDArray[Any], taken: int, change: float) -> dict[str, object]:

@@ -23,9 +23,11 @@ from worker.synthesis._pointwise import held
 from worker.synthesis._resample import resample
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
-    from worker.stages import Report
+    from numpy.typing import NDArray
+
+    from worker.preview import Progress
     from worker.synthesis._dish import Cells, Row, Rows
 
 _STEPS_PER_LOOK = 64
@@ -35,17 +37,25 @@ def synthesize(
     spec: AnisotropicDiffusionSpec,
     size: tuple[int, int],
     inputs: Mapping[str, Image],
-    report: Report,
+    report: Progress,
 ) -> Outcome:
     """Let `inputs["input"]` spread and bring it to (width, height)."""
     image = inputs["input"]
     rows = parameter_rows(spec, inputs)
+
+    def told(share: float, step: str, so_far: Cells | None) -> None:
+        report(share, step, None if so_far is None else Image(_pixels(so_far), image.meaning))
+
     cells, taken, change = run(
-        spec, channels(spec, image), tensors_of(spec, rows, inputs.get("guide")), rows, report
+        spec, channels(spec, image), tensors_of(spec, rows, inputs.get("guide")), rows, told
     )
-    pixels = np.ascontiguousarray(held(cells).transpose(1, 2, 0))
     facts = {"steps": taken, "still": change < spec.still_below, "fastest_change": change}
-    return Outcome(Image(resample(pixels, size), image.meaning), report=facts)
+    return Outcome(Image(resample(_pixels(cells), size), image.meaning), report=facts)
+
+
+def _pixels(cells: Cells) -> NDArray[np.float32]:
+    """Return (channels, height, width) cells as a picture has them."""
+    return np.ascontiguousarray(held(cells).transpose(1, 2, 0))
 
 
 def tensors_of(
@@ -61,12 +71,12 @@ def run(
     start: Cells,
     tensors: Cells,
     rows: Mapping[str, Rows],
-    report: Report = silent,
+    report: Callable[[float, str, Cells | None], None] = silent,
 ) -> tuple[Cells, int, float]:
     """Return (channels, height, width) cells after the steps, how many those were, and the change.
 
     The change is that of the fastest cell at the last look, per unit of time. What a fixed rim
-    holds is 0.
+    holds is 0. `report` is also given the cells so far, at each look but the last one.
     """
     before = np.pad(start, ((0, 0), (1, 1), (1, 1)))
     after = before.copy()
@@ -76,7 +86,8 @@ def run(
         _step(after, before, tensors, rows["dissipation"], rows["inflow"], spec.time_step)
         before, after, taken = after, before, taken + 1
         if taken % _STEPS_PER_LOOK == 0 or taken == spec.steps:
-            report(taken / spec.steps, f"step {taken}")
+            so_far = before[:, 1:-1, 1:-1] if taken < spec.steps else None
+            report(taken / spec.steps, f"step {taken}", so_far)
             change = float(np.abs(after - before)[:, 1:-1, 1:-1].max() / spec.time_step)
             if change < spec.still_below:
                 break

@@ -19,6 +19,7 @@ from worker.outcome import Outcome
 from worker.synthesis._counter_hash import uniforms
 from worker.synthesis._resample import resample
 from worker.synthesis.by_example.exemplar import Exemplar
+from worker.synthesis.by_example.triangles import corners
 from worker.synthesis.by_example.windows import fitting_side, whole_windows
 
 if TYPE_CHECKING:
@@ -119,24 +120,10 @@ def _pieces(
     size: tuple[int, int], step: int, middles: Indices, seed: int
 ) -> tuple[list[Indices], Numbers]:
     """Return for each pixel its place in three pieces, (pixels, 2) each, and their weights."""
-    height, width = size
-    counts = np.array([max(1, round(length / step)) for length in size])
-    rows, columns = (part.ravel() for part in np.indices(size))
-    cells = np.stack([(rows + 0.5) * counts[0] / height, (columns + 0.5) * counts[1] / width], -1)
-    corner = np.floor(cells).astype(np.int64)
-    inner = cells - corner
-    upper = inner.sum(axis=-1) < 1
-    near = np.where(upper[:, np.newaxis], inner, 1 - inner)
-    first = corner + ~upper[:, np.newaxis]
-    turn = np.where(upper, 1, -1)
-    places, weights = [], []
-    chances = (uniforms(seed, 0, int(counts.prod())) * len(middles)).astype(np.int64)
-    for axis in (None, 0, 1):
-        vertex = first.copy()
-        if axis is not None:
-            vertex[:, axis] += turn
-        chosen = chances[(vertex[:, 0] % counts[0]) * counts[1] + vertex[:, 1] % counts[1]]
-        away = np.floor((cells - vertex) * np.array(size) / counts).astype(np.int64)
-        places.append(np.maximum(middles[chosen] + away, 0))
-        weights.append(1 - near.sum(axis=-1) if axis is None else near[:, axis])
-    return places, np.stack(weights)
+    found, count = corners(size, step)
+    chances = (uniforms(seed, 0, count) * len(middles)).astype(np.int64)
+    places = [
+        np.maximum(middles[chances[corner.number]] + np.floor(corner.away).astype(np.int64), 0)
+        for corner in found
+    ]
+    return places, np.stack([corner.weight for corner in found])

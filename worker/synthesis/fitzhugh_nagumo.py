@@ -17,12 +17,12 @@ if TYPE_CHECKING:
 
     from worker.images.image import Image
     from worker.outcome import Outcome
-    from worker.stages import Report
+    from worker.preview import Progress
     from worker.synthesis._dish import Cells, Rows
 
 
 def synthesize(
-    spec: FitzhughNagumoSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Report
+    spec: FitzhughNagumoSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Progress
 ) -> Outcome:
     """Let the dish react and bring it to (width, height)."""
     return outcome_of(Reaction(spec, inputs), _react, size, report)

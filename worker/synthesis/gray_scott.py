@@ -18,6 +18,7 @@ or where a mask says.
 
 from __future__ import annotations
 
+from math import sqrt
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -29,7 +30,7 @@ from worker.outcome import Outcome
 from worker.stages import silent
 from worker.synthesis._counter_hash import uniforms
 from worker.synthesis._dish import channels, parameter_rows
-from worker.synthesis._gray_scott_steps import BORDERS, STEPS_AT_ONCE, advance
+from worker.synthesis._gray_scott_steps import BORDERS, STEPS_AT_ONCE, advance, fill_changes
 from worker.synthesis._reaction import told
 from worker.synthesis._resample import resample
 
@@ -38,17 +39,19 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from worker.stages import Report
+    from worker.preview import Progress
     from worker.synthesis._gray_scott_steps import Rates
 
     Field = NDArray[np.float32]
 
 _DROP_SIDE = 12
 _PASSES_PER_LOOK = 8
+_ROUNDED_OFF = 1e-12
+"""A discriminant no further below 0 than this is 0: rounding took it there."""
 
 
 def synthesize(
-    spec: GrayScottSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Report
+    spec: GrayScottSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Progress
 ) -> Outcome:
     """Let the dish react and bring it to (width, height): one channel of data."""
     cells, taken, change = run(spec, *initial_dish(spec, inputs), rates_of(spec, inputs), report)
@@ -56,7 +59,10 @@ def synthesize(
         name: Image(resample(cells[i, 1:-1, 1:-1, np.newaxis], size), spec.meaning)
         for i, name in enumerate(spec.layers)
     }
-    return Outcome(layers[spec.chemical], layers, told(spec, cells, taken, change))
+    facts = told(spec, cells, taken, change)
+    if isinstance(spec.feed, float) and isinstance(spec.kill, float):
+        facts["steady_states"] = [{"u": u, "v": v} for u, v in steady_states(spec.feed, spec.kill)]
+    return Outcome(layers[spec.chemical], layers, facts)
 
 
 def initial_dish(
@@ -92,10 +98,27 @@ def rates_of(spec: GrayScottSpec, inputs: Mapping[str, Image]) -> Rates:
     return tuple(np.float32(rate[0, 1]) for rate in rates)
 
 
+def steady_states(feed: float, kill: float) -> list[tuple[float, float]]:
+    """Return u and v that stay where they are the same everywhere, the least v first."""
+    loss = feed + kill
+    under_root = 1 - 4 * loss * loss / feed if feed > 0 else -1.0
+    if under_root < -_ROUNDED_OFF:
+        return [(1.0, 0.0)]
+    root = sqrt(max(under_root, 0.0))
+    larger = (1 + root) / 2
+    states = [(1.0, 0.0), (larger, loss / larger)]
+    if root:
+        # The product of both u is loss^2 / feed: 1 - root would lose its digits
+        states.append((loss * loss / feed / larger, feed * larger / loss))
+    return states
+
+
 def run(
-    spec: GrayScottSpec, u: Field, v: Field, rates: Rates, report: Report = silent
+    spec: GrayScottSpec, u: Field, v: Field, rates: Rates, report: Progress = silent
 ) -> tuple[Field, int, float]:
     """Take the steps from u and v, (height, width) each.
+
+    The dish so far is shown at each look but the last one.
 
     Returns:
         Both with a rim, (2, height + 2, width + 2); how many steps were taken; how fast the fastest
@@ -108,18 +131,25 @@ def run(
             before[[0, -1], chemical] = before[:, chemical, [0, -1]] = rest
     elif spec.border == "no_flux":
         before[..., 0], before[..., -1] = before[..., 1], before[..., -2]
-    after = before.copy()
+    after, seen = before.copy(), before.copy()
+    changes = np.empty(len(before) - 2, np.float32)
     taken, change = 0, 0.0
     while taken < spec.steps:
-        seen = before.copy()
+        np.copyto(seen, before)
         start = taken
         for _ in range(_PASSES_PER_LOOK):
             steps = min(STEPS_AT_ONCE, spec.steps - taken)
             if steps:
                 advance(after, before, rates, steps, border)
                 before, after, taken = after, before, taken + steps
-        report(taken / spec.steps, f"step {taken}")
-        change = float(np.abs(before - seen)[1:-1, :, 1:-1].max()) / (taken - start)
+        so_far = before[1:-1, spec.layers.index(spec.chemical), 1:-1, np.newaxis]
+        report(
+            taken / spec.steps,
+            f"step {taken}",
+            Image(so_far.copy(), spec.meaning) if taken < spec.steps else None,
+        )
+        fill_changes(changes, seen, before)
+        change = float(changes.max()) / (taken - start)
         if change < spec.still_below:
             break
     return before.transpose(1, 0, 2), taken, change

@@ -11,26 +11,22 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from api_schemas.textures.image_quilting import ImageQuiltingSpec
-from api_schemas.textures.perlin import PerlinSpec
-from worker.images.image import Image
-from worker.numba_kernel import kernel, parallel_kernel, prange
-from worker.stages import silent
 from worker.synthesis._counter_hash import uniforms
 from worker.synthesis.by_example.exemplar import Exemplar
+from worker.synthesis.by_example.placing import Placing, Squares
 from worker.synthesis.by_example.result import finished
-from worker.synthesis.by_example.windows import fitting_side, whole_windows
+from worker.synthesis.by_example.views import Views, square
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from numpy.typing import NDArray
 
+    from api_schemas.textures.image_quilting import ImageQuiltingSpec
+    from worker.images.image import Image
     from worker.outcome import Outcome
     from worker.stages import Report
 
-    Bytes = NDArray[np.uint8]
-    Mask = NDArray[np.bool_]
     Integers = NDArray[np.int64]
 
 
@@ -43,25 +39,29 @@ def synthesize(
         RenderError: No pixel of the exemplar may be copied.
     """
     exemplar = Exemplar.of(inputs)
+    views = Views.of(exemplar, turns=spec.turns, flips=spec.flips)
     width, height = spec.size
-    place = quilted(exemplar, (height, width), spec, report)
-    return finished(place.astype(np.int32), exemplar, inputs, size)
+    spots = quilted(exemplar, views, (height, width), spec, report)
+    place, turns = views.sources(spots), spots[..., 0]
+    return finished(place, exemplar, inputs, size, turns=turns, normal_range=spec.normal_range)
 
 
 def quilted(
-    exemplar: Exemplar, size: tuple[int, int], spec: ImageQuiltingSpec, report: Report
+    exemplar: Exemplar,
+    views: Views,
+    size: tuple[int, int],
+    spec: ImageQuiltingSpec,
+    report: Report,
 ) -> Integers:
-    """Return row and column of the source of each pixel, (height, width, 2)."""
-    side = fitting_side(exemplar.usable, (spec.block, spec.block), spec.block)
-    overlap = min(max(1, round(spec.overlap * side)), side // 2)
-    step = side - overlap
+    """Return the spot of the views that each pixel is from, (height, width, 3)."""
+    squares = Squares.of(spec, exemplar.usable, spec.block)
+    side, overlap, step = squares.side, squares.overlap, squares.step
     counts = [max(0, -(-(length - overlap) // step)) or 1 for length in size]
     canvas = [(count - 1) * step + side for count in counts]
-    place = np.zeros((*canvas, 2), np.int64)
-    allowed = whole_windows(exemplar.usable, (side, side))
-    planes = np.ascontiguousarray(np.moveaxis(exemplar.features, -1, 0))
+    spots = np.zeros((*canvas, 3), np.int64)
+    spots[..., 0] = views.names[0]
+    placing = Placing(views, side)
     chances = uniforms(spec.seed, 0, counts[0] * counts[1]).reshape(counts)
-    inner = np.moveaxis(np.indices((side, side)), 0, -1)
     for row in range(counts[0]):
         report(row / counts[0], "sewing")
         for column in range(counts[1]):
@@ -69,18 +69,16 @@ def quilted(
             over = np.zeros((side, side), bool)
             over[:overlap] |= row > 0
             over[:, :overlap] |= column > 0
-            old = exemplar.features[place[there][..., 0], place[there][..., 1]]
-            corner = _chosen(planes, allowed, old, over, spec.tolerance, chances[row, column])
-            new = inner + corner
-            apart = old.astype(np.int64) - exemplar.features[new[..., 0], new[..., 1]]
-            differences = (apart**2).sum(axis=-1)
+            old = views.colours(spots[there])
+            new = square(placing.chosen(old, over, spec.tolerance, chances[row, column]), side)
+            differences = ((old - views.colours(new)) ** 2).sum(axis=-1)
             fresh = np.ones((side, side), bool)
             if column > 0 and overlap > 0:
                 fresh &= np.arange(side) >= cut(differences[:, :overlap])[:, np.newaxis]
             if row > 0 and overlap > 0:
                 fresh &= np.arange(side)[:, np.newaxis] >= cut(differences[:overlap].T)
-            place[there] = np.where(fresh[..., np.newaxis], new, place[there])
-    return place[: size[0], : size[1]]
+            spots[there] = np.where(fresh[..., np.newaxis], new, spots[there])
+    return spots[: size[0], : size[1]]
 
 
 def cut(differences: Integers) -> Integers:
@@ -103,50 +101,3 @@ def cut(differences: Integers) -> Integers:
         first = max(0, path[row + 1] - 1)
         path[row] = first + sums[row, first : min(columns, path[row + 1] + 2)].argmin()
     return path
-
-
-def warm() -> None:
-    """Compile the kernels."""
-    picture = Image(np.linspace(0, 1, 147, dtype=np.float32).reshape(7, 7, 3), "colour")
-    spec = ImageQuiltingSpec(
-        technique="image_quilting", exemplar=PerlinSpec(technique="perlin"), size=[9, 9], block=4
-    )
-    synthesize(spec, (9, 9), {"exemplar": picture}, silent)
-
-
-def _chosen(
-    planes: Bytes, allowed: Mask, old: Bytes, over: Mask, tolerance: float, chance: float
-) -> Integers:
-    """Return the upper left corner of a square of the exemplar, by a chance in [0, 1)."""
-    costs = np.zeros(allowed.shape, np.int64)
-    rows, columns = np.nonzero(over)
-    if len(rows):
-        _compare(costs, planes, old[over], rows, columns)
-    costs[~allowed] = np.iinfo(np.int64).max
-    near = np.flatnonzero(costs <= costs.min() * (1 + tolerance))
-    return np.array(np.divmod(near[int(chance * len(near))], allowed.shape[1]))
-
-
-@parallel_kernel
-def _compare(
-    costs: Integers, planes: Bytes, wanted: Bytes, rows: Integers, columns: Integers
-) -> None:
-    """Add up squared differences of some pixels of a square, for each corner in the exemplar."""
-    for v in prange(costs.shape[0]):
-        sums = np.empty(costs.shape[1], np.int32)
-        # Sums of 4096 pixels of four channels stay below 2^31
-        for start in range(0, len(rows), 4096):
-            sums[:] = 0
-            for i in range(start, min(start + 4096, len(rows))):
-                for channel in range(len(planes)):
-                    line = planes[channel, v + rows[i], columns[i] : columns[i] + len(sums)]
-                    _add(sums, line, np.int32(wanted[i, channel]))
-            for u in range(len(sums)):
-                costs[v, u] += sums[u]
-
-
-@kernel
-def _add(sums: NDArray[np.int32], line: Bytes, value: np.int32) -> None:
-    for i in range(len(sums)):
-        step = np.int32(line[i]) - value
-        sums[i] += step * step

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from worker.images.image import Image
     from worker.outcome import Outcome
-    from worker.stages import Report
+    from worker.preview import Progress
     from worker.synthesis._dish import Cells, Rows
 
 _LEAST = 1e-9
@@ -25,7 +25,7 @@ _LEAST = 1e-9
 
 
 def synthesize(
-    spec: MeinhardtStripesSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Report
+    spec: MeinhardtStripesSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Progress
 ) -> Outcome:
     """Let the dish react and bring it to (width, height)."""
     reaction = Reaction(spec, inputs)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from worker.images.image import Image
-from worker.images.relief import Decoded, Slopes, decode, prepared
+from worker.images.relief import Decoded, Normals, Slopes, decode, prepared
 
 
 def test_a1_signed_and_unsigned_bytes_are_decoded_as_the_book_says():
@@ -48,6 +48,34 @@ def test_one_channel_tilts_along_both_directions():
     image = Image(np.float32([[[0.75]]]), "data")
 
     assert prepared(image, Decoded("unorm8")).pixels.tolist() == [[[0.5, 0.5]]]
+
+
+def test_x21_bumps_tell_the_squares_of_their_tilts():
+    image = Image(np.float32([[[0.5, -2.0], [3e38, 0.0]]]), "data")
+
+    found = prepared(image, Decoded("float", squares=True)).pixels
+
+    assert found[0, 0].tolist() == [0.5, -2.0, 4.25]
+    assert np.isfinite(found).all()
+
+
+@pytest.mark.parametrize(
+    ("texel", "number_range", "normal"),
+    [
+        ([3.0, 0.0, 4.0], "signed", [0.6, 0.0, 0.8]),
+        ([0.5, 0.0, 1.0], "unit", [0.0, -(0.5**0.5), 0.5**0.5]),
+        ([0.0, 0.0, 0.0], "signed", [0.0, 0.0, 1.0]),
+        ([3e38, 3e38, 0.0], "signed", [0.5**0.5, 0.5**0.5, 0.0]),
+        ([np.nan, np.nan, -2.0], "signed", [0.0, 0.0, -1.0]),
+        ([1.0], "unit", [3**-0.5] * 3),
+        ([1.0, 0.5], "unit", [0.5**0.5, 0.0, -(0.5**0.5)]),
+        ([0.5, 0.5, 1.0, 0.25], "unit", [0.0, 0.0, 1.0]),
+    ],
+)
+def test_x21_normals_get_unit_length(texel, number_range, normal):
+    found = prepared(Image(np.float32([[texel]]), "data"), Normals(number_range)).pixels
+
+    assert found[0, 0] == pytest.approx(normal, abs=1e-7)
 
 
 def relief(heights, channel=0, wrap=("repeat", "repeat")):

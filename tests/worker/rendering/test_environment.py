@@ -16,6 +16,7 @@ from tests.worker.rendering.surroundings import (
     latlong,
     mirrored,
 )
+from worker.errors import RenderError
 
 pytestmark = [pytest.mark.gl, pytest.mark.usefixtures("small_cubes")]
 
@@ -119,46 +120,6 @@ def test_t36_chalk_shows_irradiance_over_pi(studio: Studio, matt: str) -> None:
     np.testing.assert_allclose(seen[on_it][:, 1], expected[on_it], atol=6e-3)
 
 
-def test_t37_a_chalk_ball_is_the_irradiance_map(studio: Studio) -> None:
-    # From above, parallel rays meet the normals that the layout of hemispheres has there.
-    light = latlong(64)
-    picture = studio.texture(1 + light @ [0.5, 0.3, -0.4] + light[..., 0] ** 2)
-    side = 64
-    mapped = {
-        "technique": "irradiance",
-        "environment": picture,
-        "to": {"technique": "hemispheres"},
-        "method": "harmonics",
-    }
-    from pydantic import TypeAdapter  # noqa: PLC0415
-
-    from api_schemas.language import Texture  # noqa: PLC0415
-    from worker.synthesis import irradiance  # noqa: PLC0415
-
-    spec = TypeAdapter(Texture).validate_python(mapped)
-    environment = studio.make(spec.environment, "colour")
-    made = irradiance.synthesize(
-        spec, (2 * side, side), {"environment": environment}, lambda share, step: None
-    )
-    scene = {
-        "camera": {
-            "type": "orthographic",
-            "height": 2.0,
-            "pose": {"eye": [0.0, 4.0, 0.0], "target": [0.0, 0.0, 0.0], "up": [0.0, 0.0, -1.0]},
-        },
-        "environment": {"texture": picture, "matt": "harmonics"},
-        "nodes": [{"mesh": {"type": "sphere", "segments": 512, "rings": 256}, "surface": CHALK}],
-    }
-
-    seen = studio.draw(scene, (side, side))
-
-    # The left square has x to the right and z upwards: the eye that looks down has -z upwards.
-    expected = made.image.pixels[::-1, :side, :3]
-    _, on_it = ball_normals(side)
-    on_it[:, :] &= np.hypot(*np.meshgrid(*[(2 * np.arange(side) + 1) / side - 1] * 2)) < 0.95
-    np.testing.assert_allclose(seen[on_it][:, :3], expected[on_it], atol=3e-3)
-
-
 def test_it_is_seen_behind_everything_in_perspective(studio: Studio) -> None:
     picture = studio.texture(coded(latlong(2048)).astype(np.float32))
     eye, target = np.array([1.0, 2.0, 3.0]), np.array([-2.0, 2.5, -1.0])
@@ -254,3 +215,25 @@ def test_numbers_that_are_none_do_not_spread(studio: Studio) -> None:
         assert seen[..., :3].max() <= 1 + 1e-3
         # Rough metal gives back 69 % without the light between facets, and 2 of 2048 are dark.
         assert np.median(seen[4:12, 4:12, :3]) > 0.85
+
+
+@pytest.mark.parametrize(("bad", "count"), [(np.nan, 1), (np.inf, 1), (-np.inf, 1), (1.0, 0)])
+@pytest.mark.parametrize("layout", ["latlong", "octahedral"])
+def test_numbers_that_are_none_are_refused_where_that_is_wished(
+    studio: Studio, layout: str, bad: float, count: int
+) -> None:
+    pixels = np.ones((16, 32 if layout == "latlong" else 16, 3), np.float32)
+    pixels[4, 5, 1] = bad
+    environment = {
+        "texture": studio.texture(pixels),
+        "layout": {"technique": layout},
+        "broken_texels": "refuse",
+    }
+
+    if not count:
+        assert np.isfinite(ball(studio, environment, MIRROR, 4)).all()
+        return
+    with pytest.raises(RenderError, match=r"^1 number") as refused:
+        ball(studio, environment, MIRROR, 4)
+    assert refused.value.code == "environment_texels"
+    assert refused.value.pointer == "/scene/environment/texture"

@@ -22,6 +22,7 @@ from tests.worker.rendering.studio import Studio
 from tests.worker.rendering.test_metallic_roughness import polished_things
 from tests.worker.rendering.test_renderer import still_life
 from tests.worker.rendering.test_shadows import LIGHTS, scene
+from tests.worker.rendering.test_volume import noisy_cloud
 from worker.rendering.renderer import fingerprint, render
 
 studio = Studio(render)
@@ -30,6 +31,7 @@ assert pixels.any()
 pixels = np.concatenate([pixels, studio.draw(polished_things(studio), (300, 200), 2)])
 layers = studio.layers(still_life(studio), get_args(Layer), (200, 300), 3)
 bits = pixels.tobytes() + studio.draw(glass_scene(studio), (200, 150), 2).tobytes()
+bits += studio.draw(noisy_cloud(), (64, 48), 2).tobytes()
 for light in LIGHTS.values():
     bits += studio.draw(scene(light | {"shadow": {}}), (100, 100)).tobytes()
 bits += b"".join(layers[name].tobytes() for name in sorted(layers))

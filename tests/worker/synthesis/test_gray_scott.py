@@ -35,6 +35,36 @@ def test_steady_states_stay(feed, kill, u, v):
     assert after[1] == pytest.approx(v, abs=1.5e-7)
 
 
+@pytest.mark.parametrize(
+    ("feed", "kill", "expected"),
+    [
+        (0.04, 0.05, [(0.717944947, 0.125357801), (0.282055053, 0.319086643)]),
+        (0.04, 0.061, []),
+        (0.0, 0.0, []),
+        (1e-3, 1e-9, [(0.998998996, 0.001001003), (0.001001004, 0.998997997)]),
+        (0.1, 0.0, [(0.887298335, 0.112701665), (0.112701665, 0.887298335)]),
+    ],
+)
+def test_a12_the_job_tells_where_the_chemicals_may_stay(feed, kill, expected):
+    told = synthesize(spec(feed=feed, kill=kill, steps=0), (8, 8), {}, silent).report
+
+    found = [(state["u"], state["v"]) for state in told["steady_states"]]
+    assert found[0] == (1, 0)
+    assert np.array(found[1:]).ravel() == pytest.approx(np.array(expected).ravel(), abs=1e-8)
+    for u, v in found:
+        assert -u * v * v + feed * (1 - u) == pytest.approx(0, abs=1e-12)
+        assert u * v * v - (feed + kill) * v == pytest.approx(0, abs=1e-12)
+
+
+def test_a12_two_steady_states_meet_where_they_appear():
+    told = synthesize(spec(feed=0.04, kill=0.06, steps=0), (8, 8), {}, silent).report
+
+    _, *meeting = told["steady_states"]
+    for state in meeting:
+        assert [state["u"], state["v"]] == pytest.approx([0.5, 0.2], abs=1e-6)
+    assert meeting
+
+
 def test_what_is_no_steady_state_moves():
     after = react(*flat(0.6, 0.25), spec(feed=0.04, kill=0.05, steps=1))
 

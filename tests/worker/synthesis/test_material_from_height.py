@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 from pydantic import TypeAdapter
 
-from api_schemas.language import Texture
+from api_schemas.members import Texture
+from tests.run_example import run_example
+from tests.worker.images.exr_bytes import parse_exr
 from worker.images.image import Image
 from worker.synthesis import outcome
 from worker.synthesis._horizons import sky_seen
@@ -116,3 +118,19 @@ def test_reliefs_without_bounds_or_numbers_end_nothing():
 
     assert all(np.isfinite(layer.pixels).all() for layer in made.layers.values())
     assert np.isfinite(made.image.pixels).all()
+
+
+def test_x19_one_request_makes_a_set_that_tiles(tmp_path):
+    out = tmp_path / "set.exr"
+
+    run_example("material_from_height", out, tmp_path, format="exr", exr_type="float")
+
+    channels = parse_exr(out.read_bytes()).channels
+    maps = {name.partition(".")[0] for name in channels}
+    assert maps >= {"R", "height", "N", "occlusion", "curvature", "roughness"}
+    for name, values in channels.items():
+        for axis in (0, 1):
+            # Where its edges join it is about as rough as along the roughest line within
+            seam = np.abs(np.take(values, 0, axis) - np.take(values, -1, axis)).mean()
+            inside = np.abs(np.diff(values, axis=axis)).mean(axis=1 - axis)
+            assert seam <= 1.2 * inside.max() + 1e-6, name

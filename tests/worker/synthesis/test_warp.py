@@ -8,8 +8,9 @@ from hypothesis import strategies as st
 from api_schemas.textures.constant import ConstantSpec
 from api_schemas.textures.warp import WarpSpec
 from worker.images.image import Image
+from worker.images.volume import Volume
 from worker.stages import silent
-from worker.synthesis.warp import synthesize
+from worker.synthesis.warp import synthesize, synthesize_volume
 
 NUMBERS = st.floats(-(2.0**127), 2.0**127, width=32)
 
@@ -102,3 +103,61 @@ def test_the_warped_tile_repeats(shift):
     moved = warped(np.roll(texels, shift, (0, 1)), np.roll(by, shift, (0, 1)))
 
     assert moved.tobytes() == np.roll(warped(texels, by), shift, (0, 1)).tobytes()
+
+
+def warped_solid(voxels, by, **fields):
+    nothing = ConstantSpec(technique="constant", value=0.0)
+    spec = WarpSpec(technique="warp", input=nothing, by=nothing, **fields)
+    shape = (*voxels.shape[:3], np.shape(by)[-1] if np.ndim(by) else 1)
+    by = np.array(np.broadcast_to(np.float32(by), shape))
+    inputs = {"input": Volume(voxels, "colour"), "by": Volume(by, "data")}
+    made = synthesize_volume(spec, voxels.shape[2::-1], inputs, silent)
+    assert made.meaning == "colour"
+    return made.voxels
+
+
+def random_voxels():
+    return np.random.default_rng(1).random((6, 4, 8, 3), "f4")
+
+
+def test_a_solid_at_rest_stays():
+    assert warped_solid(random_voxels(), 0.25, rest=0.25).tobytes() == random_voxels().tobytes()
+
+
+@given(*[st.integers(-20, 20)] * 3)
+def test_whole_voxels_shift_around_all_faces(across, up, deep):
+    by = [across / 8, up / 4, deep / 2]
+
+    found = warped_solid(random_voxels(), by, strength=[1.0, 1.0, 2 / 6], rest=0.0)
+
+    assert (found == np.roll(random_voxels(), (-deep, up, -across), (0, 1, 2))).all()
+
+
+def test_the_last_channel_and_the_last_strength_hold_for_what_has_none():
+    voxels = random_voxels()
+
+    one = warped_solid(voxels, 1.0, strength=[0.125, 0.5], rest=0.0)
+    two = warped_solid(voxels, [0.25, 0.5], strength=[0.5, 1.0, 1.0], rest=0.0)
+
+    assert (one == np.roll(voxels, (-3, 2, -1), (0, 1, 2))).all()
+    assert (two == np.roll(voxels, (-3, 2, -1), (0, 1, 2))).all()
+
+
+def test_a_linear_solid_is_moved_as_far_as_it_says():
+    ramp = np.arange(8, dtype=np.float32)
+    voxels = ramp[:, None, None, None] * 100 - 10 * ramp[:, None, None] + ramp[:, None]
+
+    found = warped_solid(voxels, [1 / 16, 1 / 32, 3 / 32], strength=[1.0] * 3, rest=0.0)
+
+    # Half a column, a quarter of a row upwards, three quarters of a slice
+    inside = np.s_[:7, 1:, :7]
+    assert found[inside] == pytest.approx(voxels[inside] + 0.5 + 2.5 + 75, abs=1e-4)
+
+
+def test_voxels_do_not_depend_on_the_number_of_threads(with_threads):
+    by = np.random.default_rng(2).random((6, 4, 8, 3), "f4")
+
+    one = with_threads(1, lambda: warped_solid(random_voxels(), by))
+    two = with_threads(2, lambda: warped_solid(random_voxels(), by))
+
+    assert one.tobytes() == two.tobytes()

@@ -15,6 +15,7 @@ _PLACES: Final = {
     "KHR_materials_ior": re.compile(_MATERIAL),
     "KHR_materials_specular": re.compile(_MATERIAL),
     "KHR_materials_clearcoat": re.compile(_MATERIAL),
+    "KHR_materials_anisotropy": re.compile(_MATERIAL),
     "KHR_lights_punctual": re.compile(r"|/nodes/\d+"),
     "KHR_mesh_quantization": re.compile(r"(?!)"),
 }

@@ -1,5 +1,6 @@
 """From glTF's materials to surfaces of our language."""
 
+import math
 from typing import Any, Final, Literal
 
 from pydantic import ValidationError
@@ -8,7 +9,7 @@ import api_schemas.language  # noqa: F401 - it completes the models of surfaces
 from api_schemas.families import SurfaceSpec
 from api_schemas.surfaces.metallic_roughness import MetallicRoughnessSpec
 from api_schemas.surfaces.unlit import UnlitSpec
-from worker.models.gltf.document.materials import Material
+from worker.models.gltf.document.materials import Anisotropy, Material
 from worker.models.gltf.faults import unsupported
 from worker.models.gltf.textures import Textures
 
@@ -60,8 +61,24 @@ def _metallic_roughness(material: Material, textures: Textures) -> MetallicRough
             clearcoat.clearcoat_roughness_texture, "g", clearcoat.clearcoat_roughness_factor
         ),
         normal=textures.normal(material.normal_texture),
+        **_anisotropy(more.anisotropy, textures),
         **_shared(material, textures),
     )
+
+
+def _anisotropy(anisotropy: Anisotropy, textures: Textures) -> dict[str, Any]:
+    """Return the direction in which highlights are longer; without strength there is none."""
+    strength, texture = anisotropy.anisotropy_strength, anisotropy.anisotropy_texture
+    if strength == 0:
+        return {}
+    along = textures.number(texture, "r", 2.0, -1.0)
+    up = 0.0 if isinstance(along, float) else textures.number(texture, "g", 2.0, -1.0)
+    return {
+        "anisotropy_strength": textures.number(texture, "b", strength),
+        "anisotropy_rotation": math.remainder(anisotropy.anisotropy_rotation, math.tau),
+        "anisotropy_x": along,
+        "anisotropy_y": up,
+    }
 
 
 def _base_color(material: Material, textures: Textures) -> Any:

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy import ndimage
 
+from worker.synthesis.by_example.block_fitting import fitting_blocks
 from worker.synthesis.by_example.long_copies import bar, late
 from worker.synthesis.by_example.patch_grid import PatchGrid
 from worker.synthesis.by_example.patch_match import (
@@ -28,7 +29,7 @@ from worker.synthesis.by_example.patch_match import (
     lines,
 )
 from worker.synthesis.by_example.pyramid import doubled
-from worker.synthesis.by_example.starting import continued_outwards, fitting_blocks, random_blocks
+from worker.synthesis.by_example.starting import brought_to, continued_outwards, random_blocks
 from worker.synthesis.by_example.task import levels
 from worker.synthesis.by_example.voting import vote
 from worker.synthesis.by_example.windows import fitting_side, whole_windows
@@ -95,8 +96,10 @@ def _rounds(level: Level) -> int:
 
 
 def _begun(task: Task, level: Level, *, dense: bool) -> _Search:
-    """Begin several times with other random numbers, and go on with what fits best."""
-    found = [_Search(task, level, dense=dense).random(use) for use in range(_STARTS)]
+    """Begin with what is given, or several times by chance, and go on with what fits best."""
+    if task.start is not None:
+        return _Search(task, level, dense=dense).following(task.start)
+    found = [_Search(task, level, dense=dense).beginning(use) for use in range(_STARTS)]
     for state in found:
         for turn in range(_rounds(level) // 2):
             state.advance(turn)
@@ -122,7 +125,7 @@ class _Search:
         self._barred = np.full((*self._grid.counts, 2), _NOWHERE, np.int32)
         self.place = np.zeros((height, width, 2), np.int32)
 
-    def random(self, use: int) -> _Search:
+    def beginning(self, use: int) -> _Search:
         """Begin with blocks, or, where pixels are fixed, with what continues them."""
         grid, seed = self._grid, self._task.seed
         height, width = self._level.usable.shape
@@ -140,6 +143,15 @@ class _Search:
         blocks = fitting_blocks(grid, self._level.source, self._allowed, size, seed, use)
         self._field = Field.of(*self._onto_allowed(*blocks))
         self._active = np.ones(grid.counts, bool)
+        self._vote()
+        return self
+
+    def following(self, start: Integers) -> _Search:
+        """Begin with a map that is nearly right."""
+        source = self._level.usable.shape
+        rows, columns = brought_to(start, self._task.usable.shape, source, self._grid)
+        self._field = Field.of(*self._onto_allowed(rows, columns))
+        self._active = np.ones(self._grid.counts, bool)
         self._vote()
         return self
 

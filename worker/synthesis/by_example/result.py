@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from api_schemas.by_example import MATERIAL
 from worker.images.image import Image
 from worker.outcome import Outcome
-from worker.synthesis._channels import matched
+from worker.synthesis._channels import data_with, matched
 from worker.synthesis._resample import resample
 from worker.synthesis.by_example.quality import quality
+from worker.synthesis.by_example.views import turned_normals
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -20,6 +22,7 @@ if TYPE_CHECKING:
     from worker.synthesis.by_example.exemplar import Exemplar
 
     Integers = NDArray[np.int32]
+    Pixels = NDArray[np.float32]
 
 
 def finished(
@@ -28,20 +31,34 @@ def finished(
     inputs: Mapping[str, Image],
     size: tuple[int, int],
     kept: Image | None = None,
+    *,
+    turns: NDArray[np.int64] | None = None,
+    normal_range: Literal["unit", "signed"] = "unit",
 ) -> Outcome:
     """Gather pixels, and tell where they come from and how good the result is.
 
     Args:
         place: Row and column of the source of each pixel, (height, width, 2); -1 for kept ones.
         exemplar: What the map was made on.
-        inputs: `picture` is what pixels are taken of, if it is there, else the exemplar.
+        inputs: `picture` is what pixels are taken of, if it is there, else the exemplar. Layers
+            are made of the maps of a material in the same way.
         size: Width and height of the picture that is wanted.
         kept: Where -1 is taken from.
+        turns: Which view of the exemplar each pixel is from, where there are several.
+        normal_range: Whether the normals of the material, if given, hold 0..1.
     """
     image = gathered(place, inputs.get("picture", exemplar.image), kept)
+    layers = {"source": source_layer(place, exemplar.shape)}
+    if turns is not None:
+        layers["turn"] = turns[..., np.newaxis].astype(np.float32)
+    maps = {name: gathered(place, inputs[name]).pixels for name in MATERIAL if name in inputs}
+    maps |= {name: np.where(place[..., :1] < 0, 0, pixels) for name, pixels in maps.items()}
+    if "normal" in maps and turns is not None:
+        maps["normal"] = _turned(maps["normal"], turns, normal_range)
     return Outcome(
         Image(resample(image.pixels, size), image.meaning),
-        {"source": Image(nearest(source_layer(place, exemplar.shape), size), "data")},
+        {name: Image(nearest(values, size), "data") for name, values in layers.items()}
+        | {name: Image(resample(pixels, size), "data") for name, pixels in maps.items()},
         {"quality": quality(place, exemplar)},
     )
 
@@ -54,6 +71,16 @@ def gathered(place: Integers, source: Image, kept: Image | None = None) -> Image
     copied, stays = matched(source, kept)
     pixels = np.where((rows < 0)[..., np.newaxis], stays, copied[rows, columns])
     return Image(pixels, source.meaning)
+
+
+def _turned(
+    pixels: Pixels, turns: NDArray[np.int64], normal_range: Literal["unit", "signed"]
+) -> Pixels:
+    """Turn the normals of a map with the pieces of it that were turned."""
+    normals = data_with(pixels, 3)[..., :3]
+    if normal_range == "signed":
+        return turned_normals(normals, turns)
+    return np.asarray((turned_normals(2 * normals - 1, turns) + 1) / 2, np.float32)
 
 
 def source_layer(place: Integers, shape: tuple[int, int]) -> NDArray[np.float32]:

@@ -17,7 +17,6 @@ from worker.models.gltf.reader import read
         "KHR_materials_transmission",
         "KHR_materials_volume",
         "KHR_materials_iridescence",
-        "KHR_materials_anisotropy",
         "KHR_materials_dispersion",
         "KHR_materials_pbrSpecularGlossiness",
         "VENDOR_whatever",

@@ -64,6 +64,10 @@ def test_factors_without_textures_are_plain_values() -> None:
                     "clearcoatFactor": 0.5,
                     "clearcoatRoughnessFactor": 0.2,
                 },
+                "KHR_materials_anisotropy": {
+                    "anisotropyStrength": 0.4,
+                    "anisotropyRotation": 1.5,
+                },
             },
         }
     )
@@ -74,6 +78,8 @@ def test_factors_without_textures_are_plain_values() -> None:
     assert surface.double_sided
     assert (surface.ior, surface.specular, surface.specular_color) == (1.25, 0.75, [0.5, 1, 2])
     assert (surface.clearcoat, surface.clearcoat_roughness) == (0.5, 0.2)
+    assert (surface.anisotropy_strength, surface.anisotropy_rotation) == (0.4, 1.5)
+    assert (surface.anisotropy_x, surface.anisotropy_y) == (1, 0)
     assert (surface.occlusion, surface.normal, surface.opacity) == (1, None, 1)
 
 
@@ -106,6 +112,10 @@ def test_each_texture_is_read_from_its_channels_in_its_encoding() -> None:
                     "clearcoatRoughnessFactor": 0.2,
                     "clearcoatRoughnessTexture": info,
                 },
+                "KHR_materials_anisotropy": {
+                    "anisotropyStrength": 0.3,
+                    "anisotropyTexture": info,
+                },
             },
         }
     )
@@ -137,6 +147,9 @@ def test_each_texture_is_read_from_its_channels_in_its_encoding() -> None:
     assert number(surface.specular) == ("a", 0.75, 0)
     assert number(surface.clearcoat) == ("r", 0.5, 0)
     assert number(surface.clearcoat_roughness) == ("g", 0.2, 0)
+    assert number(surface.anisotropy_strength) == ("b", 0.3, 0)
+    assert number(surface.anisotropy_x) == ("r", 2, -1)
+    assert number(surface.anisotropy_y) == ("g", 2, -1)
     assert isinstance(surface.normal, NormalMap)
     assert (surface.normal.strength, surface.normal.green) == (0.7, "up")
     assert surface.normal.range == "unit"
@@ -218,6 +231,11 @@ def test_the_normal_map_of_a_coat_and_extreme_refraction_are_named() -> None:
         ({"occlusionTexture": {"index": 0, "strength": 2}}, "less than or equal to 1"),
         ({"extensions": {"KHR_materials_ior": {"ior": 0.5}}}, "neither 0 nor at least 1"),
         ({"extensions": {"KHR_materials_specular": {"specularFactor": -1}}}, "greater than"),
+        ({"extensions": {"KHR_materials_anisotropy": {"anisotropyStrength": 2}}}, "less than"),
+        (
+            {"extensions": {"KHR_materials_anisotropy": {"anisotropyTexture": {"index": 5}}}},
+            "anisotropyTexture/index: index 5 is not below 1",
+        ),
     ],
 )
 def test_numbers_that_gltf_forbids_are_refused(material: dict[str, Any], word: str) -> None:

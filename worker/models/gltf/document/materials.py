@@ -11,6 +11,7 @@ from worker.models.gltf.document.base import (
     GltfObject,
     Named,
     NonNegativeReal,
+    Real,
 )
 from worker.models.gltf.document.pictures import (
     NormalTextureInfo,
@@ -68,6 +69,14 @@ class Clearcoat(GltfObject):
     clearcoat_normal_texture: NormalTextureInfo | None = None
 
 
+class Anisotropy(GltfObject):
+    """KHR_materials_anisotropy."""
+
+    anisotropy_strength: Fraction = 0.0
+    anisotropy_rotation: Real = 0.0
+    anisotropy_texture: TextureInfo | None = None
+
+
 class Unlit(GltfObject):
     """KHR_materials_unlit, which has no parameters."""
 
@@ -82,6 +91,7 @@ class MaterialExtensions(GltfObject):
     ior: Annotated[Ior, Field(alias="KHR_materials_ior")] = Ior()
     specular: Annotated[Specular, Field(alias="KHR_materials_specular")] = Specular()
     clearcoat: Annotated[Clearcoat, Field(alias="KHR_materials_clearcoat")] = Clearcoat()
+    anisotropy: Annotated[Anisotropy, Field(alias="KHR_materials_anisotropy")] = Anisotropy()
 
 
 class Material(Named):
@@ -117,6 +127,9 @@ class Material(Named):
             ),
             "/extensions/KHR_materials_clearcoat/clearcoatNormalTexture": (
                 clearcoat.clearcoat_normal_texture
+            ),
+            "/extensions/KHR_materials_anisotropy/anisotropyTexture": (
+                more.anisotropy.anisotropy_texture
             ),
         }
         return [(place, info) for place, info in places.items() if info is not None]

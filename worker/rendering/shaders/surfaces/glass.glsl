@@ -1,3 +1,4 @@
+#include "lib/fine_relief.glsl"
 #include "lib/lights.glsl"
 #include "lib/microfacets.glsl"
 #include "lib/sky.glsl"
@@ -19,10 +20,6 @@ float reflected_part(float cosine, float ior) {
     return squared < 0.0 ? 1.0 : 0.5 * across * across * (1.0 + along * along);
 }
 
-float reach_to(vec3 direction) {
-    return max(length(dFdx(direction)), length(dFdy(direction)));
-}
-
 // A point without a normal shows its colour.
 vec4 shade(SurfacePoint point, Surface surface) {
     float ior = gl_FrontFacing ? surface.ior : 1.0 / surface.ior;
@@ -37,10 +34,11 @@ vec4 shade(SurfacePoint point, Surface surface) {
     float seen = clamp(dot(normal, point.view), 0.0, 1.0);
     float part = reflected_part(seen, ior);
     vec3 even = light_all_around();
-    vec3 in_mirror = even + sky_in_mirror(mirrored, mirrored_reach, surface.roughness);
-    vec3 behind = even + sky_in_mirror(bent, bent_reach, surface.roughness);
+    float roughness = roughened(surface.roughness);
+    vec3 in_mirror = even + sky_in_mirror(mirrored, mirrored_reach, roughness);
+    vec3 behind = even + sky_in_mirror(bent, bent_reach, roughness);
     vec3 radiance = part * in_mirror + (1.0 - part) * tint * behind;
-    float alpha = alpha_of(surface.roughness);
+    float alpha = alpha_of(roughness);
     for (int i = 0; i < light_count; i++) {
         Light light = light_at(i, point);
         vec3 half_way = light.direction + point.view;

@@ -1,4 +1,5 @@
 #include "lib/lights.glsl"
+#include "lib/lobe.glsl"
 #include "lib/microfacets.glsl"
 #include "lib/sky.glsl"
 #include "lib/surface_point.glsl"
@@ -14,6 +15,10 @@ struct Surface {
     vec3 specular_color;
     float clearcoat;
     float clearcoat_roughness;
+    float anisotropy_strength;
+    float anisotropy_rotation;
+    float anisotropy_x;
+    float anisotropy_y;
     int energy_compensation;
 };
 
@@ -54,7 +59,12 @@ float largest(vec3 color) {
     return max(color.r, max(color.g, color.b));
 }
 
-// glTF 2.0, appendix B, with KHR_materials_ior, _specular and _clearcoat:
+vec2 turned(vec2 vector, float angle) {
+    float cosine = cos(angle), sine = sin(angle);
+    return vec2(cosine * vector.x - sine * vector.y, sine * vector.x + cosine * vector.y);
+}
+
+// glTF 2.0, appendix B, with KHR_materials_ior, _specular, _clearcoat and _anisotropy:
 // F = F0 + (F90 - F0) (1 - v.h)^5, f = (1 - metallic) (1 - F) c / pi + F D V, the varnish on top.
 // Light from all around is split into two (Karis 2013): what the mirrored lobe gathers of it, times
 // F0 A + F90 B of a sky that is everywhere alike; what a dielectric does not reflect reaches the
@@ -62,7 +72,7 @@ float largest(vec3 color) {
 // A point without a normal shows emission + c.
 vec4 shade(SurfacePoint point, Surface surface) {
     vec3 mirrored = reflect(-point.view, point.normal);
-    float reach = max(length(dFdx(mirrored)), length(dFdy(mirrored)));
+    float reach = reach_to(mirrored);
     vec3 base = surface.base_color * point.color.rgb;
     if (point.normal == vec3(0.0)) return vec4(surface.emission + base, 1.0);
     float metallic = clamp(surface.metallic, 0.0, 1.0);
@@ -71,9 +81,11 @@ vec4 shade(SurfacePoint point, Surface surface) {
     vec3 dielectric_f0 = specular * clamp(ratio * ratio * surface.specular_color, 0.0, 1.0);
     Fresnel dielectric = Fresnel(dielectric_f0, vec3(specular));
     vec3 matt = (1.0 - metallic) * base;
-    float alpha = alpha_of(surface.roughness);
+    vec2 direction =
+        turned(vec2(surface.anisotropy_x, surface.anisotropy_y), surface.anisotropy_rotation);
+    Lobe lobe = lobe_of(point, surface.roughness, surface.anisotropy_strength, direction);
     float seen = clamp(dot(point.normal, point.view), 0.0, 1.0);
-    vec3 table = reflectance(seen, surface.roughness);
+    vec3 table = reflectance(seen, even_roughness(lobe, surface.roughness));
     float lost = surface.energy_compensation == 1 ? (1.0 - table.b) / table.b : 0.0;
     Fresnel brighter = regained(dielectric, lost);
     Fresnel metal = regained(Fresnel(base, vec3(1.0)), lost);
@@ -88,7 +100,7 @@ vec4 shade(SurfacePoint point, Surface surface) {
 
     vec3 even = light_all_around();
     vec3 on_matt = even + sky_on_matt(point.normal);
-    vec3 in_mirror = even + sky_in_mirror(mirrored, reach, surface.roughness);
+    vec3 in_mirror = even + sky_in_lobe(lobe, point, mirrored, reach, surface.roughness);
     vec3 coat_mirrored = reflect(-point.view, point.smooth_normal);
     vec3 in_coat = even + sky_in_mirror(coat_mirrored, reach, surface.clearcoat_roughness);
     vec3 below_all = matt * (1.0 - largest(reflected_of_all(brighter, table)));
@@ -104,7 +116,7 @@ vec4 shade(SurfacePoint point, Surface surface) {
         float facing = max(dot(point.normal, light.direction), 0.0);
         float coat_facing = max(dot(point.smooth_normal, light.direction), 0.0);
         vec3 below = matt * ((1.0 - largest(reflected_at(dielectric, grazing))) * facing / PI);
-        float peak = highlight(point.normal, half_way, facing, seen, alpha);
+        float peak = highlight_of(lobe, point, half_way, light.direction, facing, seen);
         float coat_peak = highlight(point.smooth_normal, half_way, coat_facing, coat_seen, coat_alpha);
         radiance += (below + reflected_at(both, grazing) * peak) * light.irradiance;
         on_coat += coat_peak * light.irradiance;

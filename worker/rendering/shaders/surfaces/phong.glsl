@@ -1,4 +1,6 @@
+#include "lib/fine_relief.glsl"
 #include "lib/lights.glsl"
+#include "lib/phong_lobe.glsl"
 #include "lib/power.glsl"
 #include "lib/sky.glsl"
 #include "lib/surface_point.glsl"
@@ -17,25 +19,23 @@ struct Surface {
 
 const float PI = 3.14159265;
 
-// Of a mirror whose lobe is about as wide as a power of the cosine: alpha^2 = 2 / (4 n + 2).
-float roughness_of(float exponent) {
-    return sqrt(sqrt(1.0 / (2.0 * exponent + 1.0)));
-}
-
 // L_out = emission + ka Ca La + sum_l [kd Cd max(0, n.l) + ks Cs max(0, r.v)^n] L_l (Phong 1975).
 // The mesh's colour multiplies Ca and Cd. A point without a normal shows emission + kd Cd.
 // energy: kd / pi, and ks (n + 2) / (2 pi) with the extra n.l (Lafortune and Willems 1994).
 vec4 shade(SurfacePoint point, Surface surface) {
     vec3 seen_mirrored = reflect(-point.view, point.normal);
-    float reach = max(length(dFdx(seen_mirrored)), length(dFdy(seen_mirrored)));
+    float reach = reach_to(seen_mirrored);
     // precise: a mapped constant and a plain one must give the same bits in their two programs.
     precise vec3 matt = surface.diffuse_weight * surface.diffuse_color * point.color.rgb;
     precise vec3 gloss = surface.specular_weight * surface.specular_color;
     if (point.normal == vec3(0.0)) return vec4(surface.emission + matt, 1.0);
-    float exponent = max(surface.exponent, 0.0);  // a map may go below, the model does not
+    float own_exponent = max(surface.exponent, 0.0);  // a map may go below, the model does not
+    float exponent = dulled_mirror(own_exponent);
     if (surface.normalization == 1) {
         matt /= PI;
         gloss *= (exponent + 2.0) / (2.0 * PI);
+    } else {
+        gloss *= (exponent + 1.0) / (own_exponent + 1.0);  // as bright in all
     }
     precise vec3 ambient = surface.ambient_weight * surface.ambient_color * point.color.rgb;
     vec3 on_matt = light_all_around() + sky_on_matt(point.normal);

@@ -1,0 +1,47 @@
+"""Texture sewn together from square patches along the best of all seams."""
+
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import Field
+
+from api_schemas.base import WHOLE
+from api_schemas.sewn import Block, SewnSpec
+
+
+class GraphCutSpec(SewnSpec):
+    """Sews squares of the exemplar together along seams of any form, and mends the worst.
+
+    Where image_quilting cuts from one side of an overlap to the other and never again, seams may
+    run anywhere here, and later squares may hide earlier seams.
+    """
+
+    source: ClassVar[str] = "Kwatra, Schodl, Essa, Turk and Bobick, 2003; Boykov and Jolly, 2001"
+    equation: ClassVar[str] = (
+        "minimise the sum over all neighbours s, t from squares A, B of "
+        "|A(s) - B(s)| + |A(t) - B(t)|"
+    )
+
+    technique: Literal["graph_cut"]
+    block: Block = Field(
+        default=64,
+        description="Side of the squares in pixels, or that of the exemplar if it is smaller: "
+        "larger than what must stay whole, such as a brick.",
+    )
+    overlap: Annotated[float, Field(ge=0.02, le=0.5)] = Field(
+        default=1 / 3,
+        description="How much of a square's side lies over its neighbour: more room for seams to "
+        "go around things, and less new in each square.",
+    )
+    passes: Annotated[int, Field(ge=0, le=8), WHOLE] = Field(
+        default=2,
+        description="How often more squares are laid over the seams, each shown only where that "
+        "makes them less visible.",
+    )
+    tileable: bool = Field(
+        default=True, description="Whether the result goes on seamlessly around its edges."
+    )
+
+    @property
+    def rounds(self) -> int:
+        """Once, and once more with each pass."""
+        return 1 + self.passes
