@@ -127,23 +127,22 @@ class _Search:
 
     def beginning(self, use: int) -> _Search:
         """Begin with blocks, or, where pixels are fixed, with what continues them."""
-        grid, seed = self._grid, self._task.seed
+        grid, seed, source = self._grid, self._task.seed, self._level.source
         height, width = self._level.usable.shape
-        if self._level.fixed.any():
+        if self._level.fixed.any() or self._task.guides is not None:
             limits = (self._allowed.shape[0], self._allowed.shape[1])
-            side = max(grid.side, min(height, width) // 2)
-            blocks = random_blocks(grid, limits, side, seed, use)
+            blocks = random_blocks(grid, limits, max(grid.side, min(height, width) // 2), seed, use)
+        else:
+            size = (max(grid.side, int(_BLOCK * height)), max(grid.side, int(_BLOCK * width)))
+            blocks = fitting_blocks(grid, source, self._allowed, size, seed, use)
+        self._field = Field.of(*self._onto_allowed(*blocks))
+        self._active = self._needed
+        if self._level.fixed.any():
             voted = self._voted.shape[2]
             known = self._features[..., :voted]
             self._features[..., :voted] = continued_outwards(known, self._level.fixed)
-            self._field = Field.of(*self._onto_allowed(*blocks))
-            self._active = self._needed
-            return self
-        size = (max(grid.side, int(_BLOCK * height)), max(grid.side, int(_BLOCK * width)))
-        blocks = fitting_blocks(grid, self._level.source, self._allowed, size, seed, use)
-        self._field = Field.of(*self._onto_allowed(*blocks))
-        self._active = np.ones(grid.counts, bool)
-        self._vote()
+        else:
+            self._vote()
         return self
 
     def following(self, start: Integers) -> _Search:
