@@ -73,4 +73,5 @@ class PrefilteredEnvironmentSpec(SphereTextureSpec):
             widths or [roughness**2 for roughness in self.roughness if roughness > 0.01] or [1.0]
         )
         useful = min(max(_TEXELS_IN_A_LOBE * math.pi / 2 / narrowest, 64), 512)
-        return 6 * 4 ** math.ceil(math.log2(useful))
+        side = 1 << math.ceil(math.log2(useful))
+        return 6 * side * side

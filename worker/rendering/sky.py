@@ -17,13 +17,13 @@ from api_schemas.families import Meaning, TextureSpec
 from api_schemas.layouts.cube import CubeSpec
 from api_schemas.layouts.hemispheres import HemispheresSpec
 from api_schemas.layouts.latlong import LatlongSpec
-from api_schemas.sky import SKY_ROUGHNESS, SkyTextures, sky_textures
+from api_schemas.sky import LIGHT_FROM_BELOW, SKY_CUBE, SKY_ROUGHNESS, SkyTextures, sky_textures
 from api_schemas.textures.image import ImageSpec
+from worker import layouts
 from worker.errors import RenderError
 from worker.images.image import Image
 from worker.images.mending import mended
 from worker.images.pyramids import mip_chain
-from worker.layouts import filled
 from worker.rendering.cache import ByteCache
 from worker.rendering.calls import choice
 from worker.rendering.cube_textures import CubeTexture, faces_in
@@ -52,6 +52,7 @@ class Sky:
         rough: As rough mirrors see it, a level for each of SKY_ROUGHNESS.
         matt: Irradiance over pi.
         uniforms: What else the chunk wants to know.
+        from_below: Whether its light does, as in a picture that is stored upside down.
     """
 
     kind: SkyKind
@@ -59,6 +60,7 @@ class Sky:
     rough: CubeTexture
     matt: CubeTexture
     uniforms: Mapping[str, Any]
+    from_below: bool = False
 
     def bind(self, program: Program, samplers: SamplerCache) -> None:
         """Give the bound program the environment, as far as it wants it."""
@@ -73,12 +75,19 @@ class Sky:
             GL.glBindSampler(unit, samplers.get(_SAMPLING, (0.0,) * 4) if flat else 0)
 
 
+@dataclass(frozen=True, slots=True)
+class _Matt:
+    cube: CubeTexture
+    from_below: bool
+
+
 class Skies:
     """Keeps the environments of earlier scenes, by content."""
 
     def __init__(self) -> None:
         """Begin with nothing in OpenGL."""
         self._cubes = ByteCache[CubeTexture](CUBES_BYTES_MAX, CubeTexture.delete)
+        self._matt = ByteCache[_Matt](CUBES_BYTES_MAX, lambda matt: matt.cube.delete())
         self._pictures = ByteCache[Texture](CUBES_BYTES_MAX, Texture.delete)
 
     def sky(self, spec: Environment, maker: TextureMaker) -> Sky:
@@ -129,7 +138,7 @@ class Skies:
         if isinstance(layout, CubeSpec):
             sharp = self._cubes.get(name, lambda: _uploaded(sharp_levels(light)))
         else:
-            sharp = self._pictures.get(name, lambda: _flat(filled(layout, light)))
+            sharp = self._pictures.get(name, lambda: _flat(layouts.filled(layout, light)))
         uniforms = {"sky_from_world": np.eye(3), "sky_intensity": 1.0}
         return self._blurred(layout.technique, sharp, sky_textures(spec), uniforms, made)
 
@@ -141,17 +150,16 @@ class Skies:
         uniforms: Mapping[str, Any],
         maker: Maker,
     ) -> Sky:
-        return Sky(
-            kind,
-            picture,
-            self._cube(textures.rough, maker, _panels),
-            self._cube(textures.matt, maker, lambda pixels: [faces_in(pixels)]),
-            uniforms,
+        matt = self._matt.get(
+            textures.matt.model_dump_json(), lambda: _lit(maker(textures.matt, "colour").pixels)
         )
+        rough = self._cube(textures.rough, maker, _panels)
+        return Sky(kind, picture, rough, matt.cube, uniforms, matt.from_below)
 
     def trim(self) -> None:
         """Free what exceeds the bounds; call it when nothing is being drawn."""
         self._cubes.trim()
+        self._matt.trim()
         self._pictures.trim()
 
     def _cube(
@@ -200,6 +208,23 @@ def _flat(pixels: NDArray[np.float32]) -> tuple[Texture, int]:
     light, _ = mended(pixels[..., : 3 if pixels.shape[2] >= 3 else 1])
     texture = Texture.upload(mip_chain(light), "colour")
     return texture, texture.size_bytes
+
+
+def _lit(column: NDArray[np.float32]) -> tuple[_Matt, int]:
+    cube, size_bytes = _uploaded([faces_in(column)])
+    return _Matt(cube, comes_from_below(column)), size_bytes
+
+
+def comes_from_below(column: NDArray[np.float32]) -> bool:
+    """Tell by irradiance (6 side, side, 3) whether light comes from below more than it ever does.
+
+    Its share along y over the even one is 2/3 of that of the light itself, L1-1 / L00.
+    """
+    height, width = column.shape[:2]
+    towards, _ = layouts.direction(SKY_CUBE, layouts.texel_middles(width, height))
+    light = column.sum(axis=2, dtype=np.float64) * layouts.solid_angles(SKY_CUBE, width, height)
+    along = float(light.ravel() @ towards[:, 1])
+    return 1.5 * math.sqrt(3) * along < LIGHT_FROM_BELOW * float(light.sum())
 
 
 def _uploaded(levels: list[NDArray[np.float32]]) -> tuple[CubeTexture, int]:

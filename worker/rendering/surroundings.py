@@ -119,8 +119,8 @@ def _discs(faces: NDArray[np.float32], layout: HemispheresSpec) -> NDArray[np.fl
     shares = (across - left)[:, np.newaxis], (down - top)[:, np.newaxis]
     upper = faces[face, top, left] * (1 - shares[0]) + faces[face, top, right] * shares[0]
     lower = faces[face, below, left] * (1 - shares[0]) + faces[face, below, right] * shares[0]
-    blended = upper * (1 - shares[1]) + lower * shares[1]
-    return blended.reshape(side, 2 * side, 3).astype(np.float32)
+    blended: NDArray[np.float32] = (upper * (1 - shares[1]) + lower * shares[1]).astype(np.float32)
+    return blended.reshape(side, 2 * side, 3)
 
 
 def _pose(axes: NDArray[np.float64], middle: NDArray[np.float64]) -> Matrix:
