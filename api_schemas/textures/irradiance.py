@@ -1,17 +1,15 @@
 """The light that arrives on a matt surface, for every way it may face."""
 
-from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
 from api_schemas.base import Number
 from api_schemas.cost import Cost
 from api_schemas.maps import COLOUR
+from api_schemas.members import Texture
 from api_schemas.own_size import OWN_SIZE
 from api_schemas.sphere_textures import SphereSpec
-
-if TYPE_CHECKING:
-    from api_schemas.language import Texture
 
 Coefficient = Annotated[list[Number], Field(min_length=3, max_length=3)]
 

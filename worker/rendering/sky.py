@@ -17,7 +17,7 @@ from api_schemas.families import Meaning, TextureSpec
 from api_schemas.layouts.cube import CubeSpec
 from api_schemas.layouts.hemispheres import HemispheresSpec
 from api_schemas.layouts.latlong import LatlongSpec
-from api_schemas.sky import LIGHT_FROM_BELOW, SKY_CUBE, SKY_ROUGHNESS, SkyTextures, sky_textures
+from api_schemas.sky import SKY_ROUGHNESS, SkyTextures, sky_textures
 from api_schemas.textures.image import ImageSpec
 from worker import layouts
 from worker.errors import RenderError
@@ -31,6 +31,7 @@ from worker.rendering.gl_context import GL
 from worker.rendering.programs import Program
 from worker.rendering.samplers import SamplerCache, Sampling
 from worker.rendering.shading_layout import SkyKind
+from worker.rendering.sky_harmonics import comes_from_below, harmonics_in
 from worker.rendering.texture_maker import TextureMaker
 from worker.rendering.textures import Texture
 
@@ -77,7 +78,10 @@ class Sky:
 
 @dataclass(frozen=True, slots=True)
 class _Matt:
+    """Irradiance over pi: a cube, and the nine numbers that hold it where it is so smooth."""
+
     cube: CubeTexture
+    uniforms: Mapping[str, Any]
     from_below: bool
 
 
@@ -151,10 +155,17 @@ class Skies:
         maker: Maker,
     ) -> Sky:
         matt = self._matt.get(
-            textures.matt.model_dump_json(), lambda: _lit(maker(textures.matt, "colour").pixels)
+            textures.matt.model_dump_json(),
+            lambda: _matt(maker(textures.matt, "colour").pixels, textures.matt.method),
         )
-        rough = self._cube(textures.rough, maker, _panels)
-        return Sky(kind, picture, rough, matt.cube, uniforms, matt.from_below)
+        return Sky(
+            kind,
+            picture,
+            self._cube(textures.rough, maker, _panels),
+            matt.cube,
+            {**uniforms, **matt.uniforms},
+            matt.from_below,
+        )
 
     def trim(self) -> None:
         """Free what exceeds the bounds; call it when nothing is being drawn."""
@@ -204,27 +215,18 @@ def _panels(pixels: NDArray[np.float32]) -> list[NDArray[np.float32]]:
     return levels
 
 
+def _matt(column: NDArray[np.float32], method: str) -> tuple[_Matt, int]:
+    smooth = method == "harmonics"
+    numbers = harmonics_in(column) if smooth else np.zeros((9, 3))
+    cube, size = _uploaded([faces_in(column)])
+    uniforms = {"sky_matt_smooth": smooth, "sky_harmonics": numbers}
+    return _Matt(cube, uniforms, comes_from_below(column)), size
+
+
 def _flat(pixels: NDArray[np.float32]) -> tuple[Texture, int]:
     light, _ = mended(pixels[..., : 3 if pixels.shape[2] >= 3 else 1])
     texture = Texture.upload(mip_chain(light), "colour")
     return texture, texture.size_bytes
-
-
-def _lit(column: NDArray[np.float32]) -> tuple[_Matt, int]:
-    cube, size_bytes = _uploaded([faces_in(column)])
-    return _Matt(cube, comes_from_below(column)), size_bytes
-
-
-def comes_from_below(column: NDArray[np.float32]) -> bool:
-    """Tell by irradiance (6 side, side, 3) whether light comes from below more than it ever does.
-
-    Its share along y over the even one is 2/3 of that of the light itself, L1-1 / L00.
-    """
-    height, width = column.shape[:2]
-    towards, _ = layouts.direction(SKY_CUBE, layouts.texel_middles(width, height))
-    light = column.sum(axis=2, dtype=np.float64) * layouts.solid_angles(SKY_CUBE, width, height)
-    along = float(light.ravel() @ towards[:, 1])
-    return 1.5 * math.sqrt(3) * along < LIGHT_FROM_BELOW * float(light.sum())
 
 
 def _uploaded(levels: list[NDArray[np.float32]]) -> tuple[CubeTexture, int]:
