@@ -99,6 +99,30 @@ def test_a_huge_picture_in_another_layout_is_weighed() -> None:
     assert cost.seconds > 60
 
 
+@pytest.mark.parametrize(
+    ("brushed", "plain"),
+    [
+        ({"technique": "ward"}, {"technique": "phong"}),
+        (
+            {"technique": "metallic_roughness", "anisotropy_strength": {"texture": PICTURE}},
+            {"technique": "metallic_roughness", "anisotropy_rotation": {"texture": PICTURE}},
+        ),
+    ],
+)
+def test_a_streak_of_sky_costs_as_many_mirrors(
+    brushed: dict[str, Any], plain: dict[str, Any]
+) -> None:
+    # A dozen readings of a cube and a picture for each of 4096 x 4096 pixels are no milliseconds.
+    def seconds(surface: dict[str, Any], environment: dict[str, Any] | None) -> float:
+        body = scene(environment, surface=surface).model_dump()
+        body["output"]["size"] = [4096, 4096]
+        return estimate(RenderRequest.model_validate(body), facts(512, 256)).seconds
+
+    sky = {"texture": PICTURE}
+    assert seconds(brushed, sky) > seconds(plain, sky) + 1
+    assert seconds(brushed, None) == pytest.approx(seconds(plain, None), rel=1e-6)
+
+
 FACES = ("front", "right", "back", "left", "top", "bottom")
 
 

@@ -31,6 +31,7 @@ from worker.rendering.gl_context import GL
 from worker.rendering.programs import Program
 from worker.rendering.samplers import SamplerCache, Sampling
 from worker.rendering.shading_layout import SkyKind
+from worker.rendering.sky_harmonics import harmonics_in
 from worker.rendering.texture_maker import TextureMaker
 from worker.rendering.textures import Texture
 
@@ -73,12 +74,21 @@ class Sky:
             GL.glBindSampler(unit, samplers.get(_SAMPLING, (0.0,) * 4) if flat else 0)
 
 
+@dataclass(frozen=True, slots=True)
+class _Matt:
+    """Irradiance over pi: a cube, and the nine numbers that hold it where it is so smooth."""
+
+    cube: CubeTexture
+    uniforms: Mapping[str, Any]
+
+
 class Skies:
     """Keeps the environments of earlier scenes, by content."""
 
     def __init__(self) -> None:
         """Begin with nothing in OpenGL."""
         self._cubes = ByteCache[CubeTexture](CUBES_BYTES_MAX, CubeTexture.delete)
+        self._matt = ByteCache[_Matt](CUBES_BYTES_MAX, lambda matt: matt.cube.delete())
         self._pictures = ByteCache[Texture](CUBES_BYTES_MAX, Texture.delete)
 
     def sky(self, spec: Environment, maker: TextureMaker) -> Sky:
@@ -141,17 +151,22 @@ class Skies:
         uniforms: Mapping[str, Any],
         maker: Maker,
     ) -> Sky:
+        matt = self._matt.get(
+            textures.matt.model_dump_json(),
+            lambda: _matt(maker(textures.matt, "colour").pixels, textures.matt.method),
+        )
         return Sky(
             kind,
             picture,
             self._cube(textures.rough, maker, _panels),
-            self._cube(textures.matt, maker, lambda pixels: [faces_in(pixels)]),
-            uniforms,
+            matt.cube,
+            {**uniforms, **matt.uniforms},
         )
 
     def trim(self) -> None:
         """Free what exceeds the bounds; call it when nothing is being drawn."""
         self._cubes.trim()
+        self._matt.trim()
         self._pictures.trim()
 
     def _cube(
@@ -194,6 +209,13 @@ def _panels(pixels: NDArray[np.float32]) -> list[NDArray[np.float32]]:
         levels.append(faces_in(np.ascontiguousarray(pixels[top : top + rows, :columns])))
         top += rows
     return levels
+
+
+def _matt(column: NDArray[np.float32], method: str) -> tuple[_Matt, int]:
+    smooth = method == "harmonics"
+    numbers = harmonics_in(column) if smooth else np.zeros((9, 3))
+    cube, size = _uploaded([faces_in(column)])
+    return _Matt(cube, {"sky_matt_smooth": smooth, "sky_harmonics": numbers}), size
 
 
 def _flat(pixels: NDArray[np.float32]) -> tuple[Texture, int]:

@@ -153,3 +153,14 @@ def test_directions_of_no_and_of_any_length_are_finite(studio: Studio, x: float)
     # No direction is that of u; one of another sign is the same axis.
     along = lit(studio, {**surface, "anisotropy_x": 1.0}, view, light)
     np.testing.assert_allclose(shown, along, rtol=1e-6)
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf, 3e38])
+@pytest.mark.parametrize("name", ["strength", "rotation", "x", "y"])
+def test_maps_of_what_is_no_number_stay_finite(studio: Studio, name: str, bad: float) -> None:
+    mapped = {"texture": studio.texture([[bad]])}
+    surface = {**METAL, "roughness": 0.4, "anisotropy_strength": 0.5}
+
+    shown = lit(studio, {**surface, f"anisotropy_{name}": mapped}, NORMAL, unit([0.3, 0.2, 1.0]))
+
+    assert np.isfinite(shown).all()

@@ -5,7 +5,8 @@ import pytest
 from pydantic import TypeAdapter, ValidationError
 
 from api_schemas.families import TextureSpec
-from api_schemas.language import FAMILIES, Texture
+from api_schemas.language import FAMILIES
+from api_schemas.members import Texture
 from worker import synthesis
 from worker.closed_form import ClosedForm
 from worker.rendering.chunks import SHADERS

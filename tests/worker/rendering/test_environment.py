@@ -120,46 +120,6 @@ def test_t36_chalk_shows_irradiance_over_pi(studio: Studio, matt: str) -> None:
     np.testing.assert_allclose(seen[on_it][:, 1], expected[on_it], atol=6e-3)
 
 
-def test_t37_a_chalk_ball_is_the_irradiance_map(studio: Studio) -> None:
-    # From above, parallel rays meet the normals that the layout of hemispheres has there.
-    light = latlong(64)
-    picture = studio.texture(1 + light @ [0.5, 0.3, -0.4] + light[..., 0] ** 2)
-    side = 64
-    mapped = {
-        "technique": "irradiance",
-        "environment": picture,
-        "to": {"technique": "hemispheres"},
-        "method": "harmonics",
-    }
-    from pydantic import TypeAdapter  # noqa: PLC0415
-
-    from api_schemas.language import Texture  # noqa: PLC0415
-    from worker.synthesis import irradiance  # noqa: PLC0415
-
-    spec = TypeAdapter(Texture).validate_python(mapped)
-    environment = studio.make(spec.environment, "colour")
-    made = irradiance.synthesize(
-        spec, (2 * side, side), {"environment": environment}, lambda share, step: None
-    )
-    scene = {
-        "camera": {
-            "type": "orthographic",
-            "height": 2.0,
-            "pose": {"eye": [0.0, 4.0, 0.0], "target": [0.0, 0.0, 0.0], "up": [0.0, 0.0, -1.0]},
-        },
-        "environment": {"texture": picture, "matt": "harmonics"},
-        "nodes": [{"mesh": {"type": "sphere", "segments": 512, "rings": 256}, "surface": CHALK}],
-    }
-
-    seen = studio.draw(scene, (side, side))
-
-    # The left square has x to the right and z upwards: the eye that looks down has -z upwards.
-    expected = made.image.pixels[::-1, :side, :3]
-    _, on_it = ball_normals(side)
-    on_it[:, :] &= np.hypot(*np.meshgrid(*[(2 * np.arange(side) + 1) / side - 1] * 2)) < 0.95
-    np.testing.assert_allclose(seen[on_it][:, :3], expected[on_it], atol=3e-3)
-
-
 def test_it_is_seen_behind_everything_in_perspective(studio: Studio) -> None:
     picture = studio.texture(coded(latlong(2048)).astype(np.float32))
     eye, target = np.array([1.0, 2.0, 3.0]), np.array([-2.0, 2.5, -1.0])

@@ -5,6 +5,8 @@
 // makes them.
 uniform samplerCube sky_rough;  // the lobes of GGX, each level rougher by a step
 uniform samplerCube sky_matt;   // irradiance over pi
+uniform bool sky_matt_smooth;   // whether nine numbers hold it
+uniform vec3 sky_harmonics[9];  // of 1, y, z, x, xy, yz, 3zz - 1, xz, xx - yy
 uniform mat3 sky_from_world;
 uniform float sky_intensity;
 
@@ -16,7 +18,14 @@ const float SKY_QUARTER = 1.570796;
 vec3 sky_sharp(vec3 direction, float reach);
 
 vec3 sky_on_matt(vec3 normal) {
-    return sky_intensity * textureLod(sky_matt, sky_from_world * normal, 0.0).rgb;
+    vec3 n = sky_from_world * normal;
+    vec3 smooth_light = sky_harmonics[0]
+        + sky_harmonics[1] * n.y + sky_harmonics[2] * n.z + sky_harmonics[3] * n.x
+        + sky_harmonics[4] * (n.x * n.y) + sky_harmonics[5] * (n.y * n.z)
+        + sky_harmonics[6] * (3.0 * n.z * n.z - 1.0) + sky_harmonics[7] * (n.x * n.z)
+        + sky_harmonics[8] * (n.x * n.x - n.y * n.y);
+    vec3 light = sky_matt_smooth ? max(smooth_light, 0.0) : textureLod(sky_matt, n, 0.0).rgb;
+    return sky_intensity * light;
 }
 
 // Below the first step the sharp picture, as blurred as its own levels allow, fades to that step. A
