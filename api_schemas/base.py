@@ -18,6 +18,7 @@ class Schema(BaseModel):
         extra="forbid",
         strict=True,
         allow_inf_nan=False,
+        defer_build=True,
     )
 
 

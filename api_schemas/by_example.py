@@ -3,7 +3,7 @@
 import math
 from abc import abstractmethod
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
@@ -11,10 +11,8 @@ from api_schemas.base import WHOLE, Seed
 from api_schemas.cost import Cost
 from api_schemas.families import TextureSpec
 from api_schemas.maps import DATA
+from api_schemas.members import Texture
 from api_schemas.own_size import FUNCTION_SIZE, LIKE_EXEMPLAR, LIKE_RESULT, OWN_SIZE, Size
-
-if TYPE_CHECKING:
-    from api_schemas.language import Texture
 
 EXEMPLAR_SIDE_MAX = 2048
 RESULT_SIDE_MAX = 4096

@@ -8,7 +8,7 @@ from api_schemas.families import TechniqueSpec
 from api_schemas.requests import Request
 from api_schemas.walk import parts
 
-ENGINE_REVISION = 3
+ENGINE_REVISION = 4
 """Raised when shared code (encoding, filtering, shading) gives other pixels for equal requests."""
 
 

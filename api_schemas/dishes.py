@@ -3,7 +3,7 @@
 import itertools
 from abc import abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
@@ -12,11 +12,10 @@ from api_schemas.cost import Cost
 from api_schemas.eigenvalues import eigenvalues
 from api_schemas.families import Meaning, Refusal, TextureSpec
 from api_schemas.maps import DATA
+from api_schemas.members import Texture
 from api_schemas.parameters import MappedSigned, ParameterMap, ends
 
 # Only names of the language are quoted: who inherits a field knows no others.
-if TYPE_CHECKING:
-    from api_schemas.language import Texture
 
 Side = Annotated[int, Field(ge=16, le=2048), WHOLE]
 Steps = Annotated[int, Field(ge=0, le=100000), WHOLE]

@@ -7,8 +7,8 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from api_schemas.base import WHOLE, Angle, NonNegative, Schema
-from api_schemas.language import Layout, Texture
 from api_schemas.maps import COLOUR
+from api_schemas.members import Layout, Texture
 
 
 class Surroundings(Schema):

@@ -8,22 +8,16 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, ClassVar, Literal, Self
+from typing import Annotated, ClassVar, Literal, Self
 
 from pydantic import Field
 
 from api_schemas.base import Schema
 from api_schemas.cost import Cost
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from api_schemas.language import MappableNonNegative
-    from api_schemas.maps import LightMap, NormalMap
-    from api_schemas.relief import BumpMap, HeightMap, ParallaxMap, TangentFrames
+from api_schemas.maps import LightMap, MappableNonNegative, NormalMap, Wrap
+from api_schemas.relief import BumpMap, HeightMap, ParallaxMap, TangentFrames
 
 Meaning = Literal["colour", "data"]
-Wrap = Literal["repeat", "mirror", "clamp", "border"]
 AlphaMode = Literal["opaque", "mask", "blend"]
 
 

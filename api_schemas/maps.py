@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Final, Literal, get_args
+from typing import TYPE_CHECKING, Annotated, Final, Literal, TypeAlias, get_args
 
 from pydantic import Field
+from typing_extensions import TypeAliasType
 
-from api_schemas.base import Angle, Color, Number, Pair, Schema
-from api_schemas.families import Meaning, Wrap
+from api_schemas.base import Angle, Color, NonNegative, Number, Pair, Schema
+from api_schemas.members import Coordinates, Layout, Texture, mappable
 
 if TYPE_CHECKING:
-    from api_schemas.language import Coordinates, Layout, Texture
+    from api_schemas.families import Meaning
 
 MAPS_MAX = 24
 """Maps on one surface: with eight to spare, what OpenGL lets a shader read."""
 
 FineDetail = Literal["lost", "roughness"]
+Wrap = Literal["repeat", "mirror", "clamp", "border"]
 PictureFilter = Literal["nearest", "bilinear", "trilinear", "anisotropic"]
 TableFilter = Literal["ripmap", "summed_area"]
 Filter = Literal[PictureFilter, "ewa", TableFilter, "formula"]
@@ -183,3 +185,15 @@ class NormalMap(Map):
         description="Whether the normals lean from the surface or are the shape's own, which need "
         "no directions of u and v and ignore how the picture is turned.",
     )
+
+
+if TYPE_CHECKING:
+    MappableNumber: TypeAlias = float | NumberMap
+    MappableNonNegative: TypeAlias = float | NumberMap
+    MappableDensity: TypeAlias = float | DensityMap
+    MappableColor: TypeAlias = list[float] | ColorMap
+else:
+    MappableNumber = TypeAliasType("MappableNumber", mappable(Number, NumberMap))
+    MappableNonNegative = TypeAliasType("MappableNonNegative", mappable(NonNegative, NumberMap))
+    MappableDensity = TypeAliasType("MappableDensity", mappable(NonNegative, DensityMap))
+    MappableColor = TypeAliasType("MappableColor", mappable(Color, ColorMap))

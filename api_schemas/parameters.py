@@ -1,14 +1,12 @@
 """Parameters of a texture that may be textures themselves: a number, or one for each point."""
 
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 from pydantic import Discriminator, Field, Tag
 
 from api_schemas.base import Schema
 from api_schemas.maps import DATA
-
-if TYPE_CHECKING:
-    from api_schemas.language import Texture
+from api_schemas.members import Texture
 
 _PAIR = Field(
     min_length=2,

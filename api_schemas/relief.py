@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Literal, TypeAlias
+from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Field
 
 from api_schemas.base import WHOLE, Coordinate, Length, Number
 from api_schemas.maps import DATA, ColorMap, FineDetail, Map, NormalMap, NumberMap
-
-if TYPE_CHECKING:
-    from api_schemas.language import Texture
+from api_schemas.members import Texture
 
 DISPLACED_TRIANGLES_MAX = 2**21
 """Triangles of one mesh after subdivision."""

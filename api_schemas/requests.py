@@ -5,8 +5,8 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from api_schemas.base import Schema
-from api_schemas.language import Texture
 from api_schemas.maps import COLOUR
+from api_schemas.members import Texture
 from api_schemas.output import RenderOutput, TextureOutput
 from api_schemas.scene import Scene
 

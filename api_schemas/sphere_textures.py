@@ -1,17 +1,15 @@
 """What the specs share that work on pictures of all directions."""
 
 import math
-from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
 from api_schemas.cost import Cost
 from api_schemas.families import TextureSpec
 from api_schemas.maps import COLOUR
+from api_schemas.members import Layout, Texture
 from api_schemas.own_size import OWN_SIZE
-
-if TYPE_CHECKING:
-    from api_schemas.language import Layout, Texture
 
 
 class SphereSpec(TextureSpec):

@@ -3,7 +3,8 @@
 import numpy as np
 from pydantic import TypeAdapter
 
-from api_schemas.language import FAMILIES, Texture
+from api_schemas.language import FAMILIES
+from api_schemas.members import Texture
 from worker.images.image import Image
 from worker.synthesis import outcome
 

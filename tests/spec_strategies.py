@@ -7,7 +7,7 @@ from typing import Any
 from hypothesis import strategies as st
 from pydantic import TypeAdapter
 
-from api_schemas.language import Surface, Texture
+from api_schemas.members import Surface, Texture
 from api_schemas.requests import RenderRequest, TextureRequest
 
 ASSET = "0" * 64

@@ -4,7 +4,8 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
-from api_schemas.families import LayoutSpec, Wrap
+from api_schemas.families import LayoutSpec
+from api_schemas.maps import Wrap
 
 
 class LatlongSpec(LayoutSpec):

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar, Literal
+from typing import ClassVar, Literal
 
 from pydantic import Field
 
 from api_schemas.families import SurfaceSpec
-
-if TYPE_CHECKING:
-    from api_schemas.language import MappableColor, MappableNonNegative, MappableNumber
+from api_schemas.maps import MappableColor, MappableNonNegative, MappableNumber
 
 
 class BrushedMetalSpec(SurfaceSpec):

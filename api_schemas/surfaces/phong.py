@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar, Literal, Self
+from typing import ClassVar, Literal, Self
 
 from pydantic import Field
 
 from api_schemas.families import SurfaceSpec
-
-if TYPE_CHECKING:
-    from api_schemas.language import MappableColor, MappableNonNegative
+from api_schemas.maps import MappableColor, MappableNonNegative
 
 
 class PhongSpec(SurfaceSpec):

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
 from api_schemas.base import WHOLE, NonNegative
 from api_schemas.families import SurfaceSpec
-
-if TYPE_CHECKING:
-    from api_schemas.language import MappableColor, MappableDensity
+from api_schemas.maps import MappableColor, MappableDensity
 
 
 class VolumeSpec(SurfaceSpec):

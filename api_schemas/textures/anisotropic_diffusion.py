@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
 from api_schemas.dishes import CellsSpec, Steps
 from api_schemas.families import Refusal
 from api_schemas.maps import DATA
+from api_schemas.members import Texture
 from api_schemas.parameters import MappedRate, MappedSigned, ends
-
-if TYPE_CHECKING:
-    from api_schemas.language import Texture
 
 
 class AnisotropicDiffusionSpec(CellsSpec):

@@ -10,12 +10,11 @@ from api_schemas.base import WHOLE, Color
 from api_schemas.cost import Cost
 from api_schemas.families import Refusal, TextureSpec, textures_in
 from api_schemas.maps import DATA_IN_SPACE
+from api_schemas.members import Texture
 from api_schemas.solid import flat_parts
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
-
-    from api_schemas.language import Texture
 
 
 class CloudVolumeSpec(TextureSpec):

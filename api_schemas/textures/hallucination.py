@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
 from api_schemas.by_example import FromExemplarSpec
 from api_schemas.cost import Cost
+from api_schemas.members import Texture
 from api_schemas.own_size import OWN_SIZE
-
-if TYPE_CHECKING:
-    from api_schemas.language import Texture
 
 
 class HallucinationSpec(FromExemplarSpec):

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
 from api_schemas.by_example import FromExemplarSpec
 from api_schemas.cost import Cost
 from api_schemas.maps import DATA
+from api_schemas.members import Texture
 from api_schemas.own_size import LIKE_EXEMPLAR
-
-if TYPE_CHECKING:
-    from api_schemas.language import Texture
 
 
 class HoleFillingSpec(FromExemplarSpec):

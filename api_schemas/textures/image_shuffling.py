@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
@@ -11,10 +11,8 @@ from api_schemas.base import WHOLE
 from api_schemas.by_example import EXEMPLAR_SIDE_MAX, FromExemplarSpec
 from api_schemas.cost import Cost
 from api_schemas.maps import DATA
+from api_schemas.members import Texture
 from api_schemas.own_size import LIKE_EXEMPLAR
-
-if TYPE_CHECKING:
-    from api_schemas.language import Texture
 
 Shift = Annotated[int, Field(ge=-EXEMPLAR_SIDE_MAX, le=EXEMPLAR_SIDE_MAX), WHOLE]
 

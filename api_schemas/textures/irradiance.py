@@ -1,17 +1,15 @@
 """The light that arrives on a matt surface, for every way it may face."""
 
-from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
 from api_schemas.base import Number
 from api_schemas.cost import Cost
 from api_schemas.maps import COLOUR
+from api_schemas.members import Texture
 from api_schemas.own_size import OWN_SIZE
 from api_schemas.sphere_textures import SphereSpec
-
-if TYPE_CHECKING:
-    from api_schemas.language import Texture
 
 Coefficient = Annotated[list[Number], Field(min_length=3, max_length=3)]
 
@@ -23,6 +21,7 @@ class IrradianceSpec(SphereSpec):
     all texels; and whether the light comes from below, as in a picture stored upside down.
     """
 
+    revision: ClassVar[int] = 2
     source: ClassVar[str] = "Ramamoorthi and Hanrahan, 2001; Sloan et al., 2002; Miller, 1984"
     equation: ClassVar[str] = (
         "E(n) / pi = (1 / pi) int L(w) max(0, n.w) dw ~ sum_lm (A_l / pi) L_lm Y_lm(n), "

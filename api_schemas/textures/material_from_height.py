@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
 from api_schemas.cost import Cost
 from api_schemas.families import TextureSpec
 from api_schemas.maps import DATA
+from api_schemas.members import Texture
 from api_schemas.textures.ramp import RampStop
-
-if TYPE_CHECKING:
-    from api_schemas.language import Texture
 
 DIRECTIONS = 16
 

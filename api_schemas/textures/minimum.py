@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar, Literal
+from typing import ClassVar, Literal
 
 from pydantic import Field
 
 from api_schemas.cost import Cost
 from api_schemas.families import TextureSpec
-
-if TYPE_CHECKING:
-    from api_schemas.language import Operand, Texture
+from api_schemas.members import Operand, Texture
 
 
 class MinimumSpec(TextureSpec):

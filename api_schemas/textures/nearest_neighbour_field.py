@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
 from api_schemas.base import WHOLE
 from api_schemas.by_example import FromExemplarSpec
 from api_schemas.cost import Cost
+from api_schemas.members import Texture
 from api_schemas.own_size import OWN_SIZE
 
-if TYPE_CHECKING:
-    from api_schemas.language import Texture
+NEAREST_MAX = 8
+_FURTHER = range(2, NEAREST_MAX + 1)
 
 
 class NearestNeighbourFieldSpec(FromExemplarSpec):
@@ -23,9 +24,18 @@ class NearestNeighbourFieldSpec(FromExemplarSpec):
     rows down in pixels; distance, the root of the mean squared difference, 0..1.
     """
 
-    source: ClassVar[str] = "Barnes, Shechtman, Finkelstein and Goldman, 2009 (PatchMatch)"
+    source: ClassVar[str] = "Barnes, Shechtman, Finkelstein and Goldman, 2009 and 2010 (PatchMatch)"
     equation: ClassVar[str] = "offset(p) = argmin over v of |target(p) - exemplar(p + v)|^2"
-    layers: ClassVar[tuple[str, ...]] = ("source", "offset", "distance")
+    layers: ClassVar[tuple[str, ...]] = (
+        "source",
+        "offset",
+        "distance",
+        *(
+            f"{name}_{rank}"
+            for rank in range(2, NEAREST_MAX + 1)
+            for name in ("offset", "distance")
+        ),
+    )
 
     technique: Literal["nearest_neighbour_field"]
     target: Annotated[Texture, OWN_SIZE] = Field(
@@ -46,15 +56,30 @@ class NearestNeighbourFieldSpec(FromExemplarSpec):
         default=5, description="How often patch_match passes over the picture: more come nearer."
     )
 
+    nearest: Annotated[int, Field(ge=1, le=NEAREST_MAX), WHOLE] = Field(
+        default=1,
+        description="How many places are looked for at each patch. The layers offset_2, distance_2 "
+        "and so on have those after the nearest; where there are no more, the distance is 1.",
+    )
+
+    def has_layer(self, name: str) -> bool:
+        """Whether there is such a layer: of as many places as are looked for."""
+        rank = name.rpartition("_")[2]
+        return super().has_layer(name) and not (rank.isdigit() and int(rank) > self.nearest)
+
     def cost_from(self, within: Mapping[str, int], pixels: int) -> Cost:
         """All pairs of patches, or a few for each patch of the target."""
         exemplar, target = within["exemplar"], within.get("target", within["exemplar"])
         numbers = 4.0 * self.patch**2
         comparisons = target * (
-            float(exemplar) if self.method == "exact" else 24.0 * self.iterations
+            exemplar * (1 + 0.2 * (self.nearest - 1))
+            if self.method == "exact"
+            else 24.0 * self.iterations * self.nearest
         )
         slowness = 5e-11 if self.method == "exact" else 1e-9
         return Cost(
             seconds=comparisons * numbers * slowness + (exemplar + target) * 2e-6 + pixels * 5e-8,
-            bytes=(exemplar + target) * 200.0 + 8192 * 4 * (2048 + 2 * numbers) + pixels * 64.0,
+            bytes=(exemplar + target) * (180.0 + 20 * self.nearest)
+            + 8192 * 4 * (2048 + 2 * numbers)
+            + pixels * 64.0,
         )

@@ -21,6 +21,7 @@ class PrefilteredEnvironmentSpec(SphereTextureSpec):
     texels.
     """
 
+    revision: ClassVar[int] = 2
     source: ClassVar[str] = "Heidrich and Seidel, 1999; Karis, 2013; Krivanek and Colbert, 2008"
     equation: ClassVar[str] = (
         "L(r) = int L(w) D(w, r) dw / int D(w, r) dw, D = D V n.l of GGX for n = v = r, or "

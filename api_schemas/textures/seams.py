@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar, Literal
+from typing import ClassVar, Literal
 
 from pydantic import Field
 
 from api_schemas.families import TextureSpec
-
-if TYPE_CHECKING:
-    from api_schemas.language import Texture
+from api_schemas.members import Texture
 
 
 class SeamsSpec(TextureSpec):

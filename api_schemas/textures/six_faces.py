@@ -1,6 +1,6 @@
 """Six pictures, one for each face of a cube."""
 
-from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
@@ -8,10 +8,8 @@ from api_schemas.cost import Cost
 from api_schemas.families import TextureSpec
 from api_schemas.layouts.cube import Arrangement, CubeSpec
 from api_schemas.maps import COLOUR
+from api_schemas.members import Texture
 from api_schemas.own_size import OWN_SIZE
-
-if TYPE_CHECKING:
-    from api_schemas.language import Texture
 
 FACES = ("front", "right", "back", "left", "top", "bottom")
 

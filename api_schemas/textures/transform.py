@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
 from api_schemas.base import Angle, Pair
 from api_schemas.cost import Cost
 from api_schemas.families import TextureSpec
-
-if TYPE_CHECKING:
-    from api_schemas.language import Texture
+from api_schemas.members import Texture
 
 MOST_SAMPLES = 16
 """Samples per pixel along each side, at most."""

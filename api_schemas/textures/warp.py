@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
@@ -10,9 +10,7 @@ from api_schemas.base import Number
 from api_schemas.cost import Cost
 from api_schemas.families import TextureSpec
 from api_schemas.maps import DATA
-
-if TYPE_CHECKING:
-    from api_schemas.language import Texture
+from api_schemas.members import Texture
 
 Shift = Annotated[float, Field(ge=-16, le=16)]
 

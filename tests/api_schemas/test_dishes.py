@@ -8,7 +8,7 @@ from pydantic import TypeAdapter
 
 from api_schemas.eigenvalues import eigenvalues
 from api_schemas.feasibility import obstacles
-from api_schemas.language import Texture
+from api_schemas.members import Texture
 from api_schemas.requests import TextureRequest
 
 

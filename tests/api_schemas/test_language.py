@@ -8,7 +8,8 @@ from hypothesis import given
 from pydantic import TypeAdapter, ValidationError
 
 import api_schemas
-from api_schemas.language import FAMILIES, Surface, Texture
+from api_schemas.language import FAMILIES
+from api_schemas.members import Surface, Texture
 from api_schemas.requests import RenderRequest, TextureRequest
 from tests.spec_strategies import render_requests, surfaces, texture_requests, textures
 

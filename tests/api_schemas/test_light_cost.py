@@ -3,6 +3,7 @@ import pytest
 from api_schemas.estimate import estimate
 from api_schemas.requests import RenderRequest
 from service.settings import Settings
+from tests.examples import examples
 
 WALL = {"mesh": {"type": "plane", "width": 100, "height": 100}, "surface": {"technique": "phong"}}
 SUN = {"type": "directional", "direction": [1, 0, -2]}
@@ -89,3 +90,20 @@ def test_every_frame_of_a_turn_is_drawn():
     assert many_.bytes < 2 * few.bytes  # a row of frames is held, not all
     layers = turning(frames=32, arrangement="layers")
     assert layers.bytes > 32 * 512 * 512 * 48
+
+
+@pytest.mark.parametrize(
+    ("steps", "light_steps", "measured"), [(64, 0, 0.31), (16, 8, 0.22), (64, 8, 1.05)]
+)
+def test_each_step_of_a_ray_through_a_cloud_takes_its_time(steps, light_steps, measured):
+    """Measured as processor time on the example, more than one step without a light takes."""
+
+    def seconds(**fields):
+        body = examples()["volume"][1]
+        body["scene"]["nodes"][0]["surface"] |= fields
+        return estimate(RenderRequest.model_validate(body), {}).seconds
+
+    more = seconds(steps=steps, light_steps=light_steps) - seconds(steps=1, light_steps=0)
+
+    # The ball round a flat box covers some three times as much as the box
+    assert measured / 2 < more < 6 * measured

@@ -4,7 +4,7 @@ import pytest
 from pydantic import TypeAdapter, ValidationError
 
 from api_schemas.estimate import estimate
-from api_schemas.language import Texture
+from api_schemas.members import Texture
 from api_schemas.requests import TextureRequest
 from service.settings import Settings
 

@@ -3,7 +3,7 @@
 import pytest
 from pydantic import TypeAdapter
 
-from api_schemas.language import Texture
+from api_schemas.members import Texture
 from api_schemas.own_size import own_size, size_within
 
 UPLOAD = {"technique": "image", "asset": "0" * 64}

@@ -1,6 +1,6 @@
 from pydantic import TypeAdapter
 
-from api_schemas.language import Texture
+from api_schemas.members import Texture
 from api_schemas.solid import flat_parts
 
 IMAGE = {"technique": "image", "asset": "0" * 64}

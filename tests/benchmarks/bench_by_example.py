@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from pydantic import TypeAdapter
 
-from api_schemas.language import Texture
+from api_schemas.members import Texture
 from worker.images.image import Image
 from worker.stages import silent
 from worker.synthesis import synthesize

@@ -11,9 +11,10 @@ from api_schemas.assets import ImageFacts
 from api_schemas.estimate import estimate
 from api_schemas.families import TextureSpec
 from api_schemas.feasibility import obstacles
-from api_schemas.language import FAMILIES, Texture
+from api_schemas.language import FAMILIES
 from api_schemas.layouts.cube import CubeSpec
 from api_schemas.maps import Map
+from api_schemas.members import Texture
 from api_schemas.output import RenderOutput, TextureOutput
 from api_schemas.requests import RenderRequest, TextureRequest
 from api_schemas.scene import Scene

@@ -6,7 +6,7 @@ from pydantic import TypeAdapter
 
 from api_schemas.cost import Cost
 from api_schemas.estimate import estimate
-from api_schemas.language import Texture
+from api_schemas.members import Texture
 from api_schemas.normalise import normalise
 from api_schemas.output import TextureOutput
 from api_schemas.requests import TextureRequest

@@ -4,8 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from api_schemas.families import Wrap
-from api_schemas.maps import Filter
+from api_schemas.maps import Filter, Wrap
 from worker.rendering.gl_context import GL, floats
 
 _MODE = {

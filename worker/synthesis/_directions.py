@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from worker.numba_kernel import kernel, parallel_kernel, prange
+from worker.numba_kernel import kernel
 from worker.synthesis._dish import at, channels, fill_rim
 from worker.synthesis.blur import smooth
 
@@ -65,14 +65,14 @@ def inflow_at(c: Cells, tensors: Cells, x: int) -> float:
     return total
 
 
-@parallel_kernel
+@kernel
 def spread_along(
     after: Cells, before: Cells, tensors: Cells, diffusions: tuple[Rows, ...], time_step: float
 ) -> None:
     """Let every chemical spread for one step, by tensors times its own diffusion."""
     chemicals, height, width = before.shape
-    for row in prange(1, height - 1):
-        for chemical in range(chemicals):
+    for chemical in range(chemicals):
+        for row in range(1, height - 1):
             near = slice(row - 1, row + 2)
             c, t = before[chemical, near], tensors[:, near]
             rates = at(diffusions[chemical], row)

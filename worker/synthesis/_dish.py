@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from api_schemas.dishes import mapped
-from worker.numba_kernel import kernel, parallel_kernel, prange
+from worker.numba_kernel import kernel
 from worker.synthesis._counter_hash import uniforms
 from worker.synthesis._pointwise import wide
 from worker.synthesis._resample import resample
@@ -37,11 +37,11 @@ def at(rows: Rows, row: int) -> Row:
     return one
 
 
-@parallel_kernel
+@kernel
 def spread(after: Cells, before: Cells, diffusions: tuple[Rows, ...], time_step: float) -> None:
     """Let every chemical spread for one step, by the five-point Laplacian."""
     chemicals, height, _ = before.shape
-    for row in prange(1, height - 1):
+    for row in range(1, height - 1):
         for chemical in range(chemicals):
             rates = at(diffusions[chemical], row)
             c = before[chemical]

@@ -76,6 +76,18 @@ def advance(after: Field, before: Field, rates: Rates, steps: int, border: int) 
                 _step_row(target, before, kept, rates, step - 1, y, border)
 
 
+@parallel_kernel
+def fill_changes(changes: Field, before: Field, after: Field) -> None:
+    """Fill (height,) with the largest change of any cell in each row, the rim left out."""
+    for row in prange(len(changes)):
+        largest = np.float32(0)
+        for chemical in range(2):
+            old, new = before[row + 1, chemical], after[row + 1, chemical]
+            for x in range(1, len(old) - 1):
+                largest = max(largest, abs(new[x] - old[x]))
+        changes[row] = largest
+
+
 @kernel
 def _step_row(
     target: Field, before: Field, kept: Field, rates: Rates, step: int, y: int, border: int

@@ -42,7 +42,8 @@ def phong(exponent: float) -> Lobe:
 def value(kind: int, sharpness: float, cosine: float) -> float:
     """Return a lobe's value, but for a constant, at a cosine above 0 from its middle."""
     if kind == PHONG:
-        return math.pow(cosine, sharpness)
+        return cosine if sharpness == 1 else math.pow(cosine, sharpness)
     a2 = sharpness * sharpness
     spread = (1 + cosine) / 2 * (a2 - 1) + 1
-    return a2 / (spread * spread) * cosine / (cosine + math.sqrt(cosine * cosine * (1 - a2) + a2))
+    shadowed = cosine + math.sqrt(cosine * cosine * (1 - a2) + a2)
+    return a2 * cosine / (spread * spread * shadowed)

@@ -7,7 +7,6 @@ stands where the middle of that light is, which is exact for a single bright tex
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -68,9 +67,21 @@ def sums(
 ) -> NDArray[np.float32]:
     """Return the mean light (n, 3) in a lobe round each unit direction (n, 3)."""
     found = np.empty((len(directions), 3), np.float32)
-    width = min(lobe.width, _HORIZON)
-    _sum_all(found, light, lobe.kind, lobe.sharpness, width, directions, share)
+    size, reach = sizes(light, lobe, share)
+    _sum_all(found, light, lobe.kind, lobe.sharpness, size, reach, directions)
     return found
+
+
+def sizes(light: Pieces, lobe: Lobe, share: float = SHARE) -> tuple[Floats, Floats]:
+    """Return the size of each level's pieces, and the distance within which they are too large.
+
+    That is where size > share (width + max(distance - size / 2, 0)); -1 where nowhere.
+    """
+    size = 2.0 / light.sides  # not less than the angle they take
+    if share == EVERY_TEXEL:
+        return size, np.full(len(size), np.inf)
+    width = min(lobe.width, _HORIZON)
+    return size, np.where(size > share * width, size / share - width + size / 2, -1.0)
 
 
 def warm() -> None:
@@ -94,32 +105,36 @@ def _sum_all(
     light: Pieces,
     kind: int,
     sharpness: float,
-    width: float,
+    size: Floats,
+    reach: Floats,
     directions: Floats,
-    share: float,
 ) -> None:
     for block in prange((len(directions) + 15) // 16):
         total = np.empty(4)
         stack = np.empty((64, 4), np.int64)
+        near = np.empty(len(size))
+        fill_near(near, reach, 0.0)
         for index in range(block * 16, min(block * 16 + 16, len(directions))):
             total[:] = 0.0
-            _sum_one(total, stack, light, kind, sharpness, width, directions[index], share)
+            add_up(total, stack, light, kind, sharpness, size, near, directions[index])
             for channel in range(3):
                 found[index, channel] = total[1 + channel] / total[0]
 
 
 @kernel
-def _sum_one(
+def add_up(
     total: Floats,
     stack: NDArray[np.int64],
     light: Pieces,
     kind: int,
     sharpness: float,
-    width: float,
+    size: Floats,
+    near: Floats,
     direction: Floats,
-    share: float,
 ) -> None:
     """Add up the lobe's weight, and the light times it in three channels."""
+    x, y, z = direction[0], direction[1], direction[2]
+    texels = light.texels
     for face in range(6):
         stack[0, 0], stack[0, 1], stack[0, 2] = len(light.sides) - 1, 0, 0
         held = 1
@@ -127,13 +142,11 @@ def _sum_one(
             held -= 1
             level, row, column = stack[held, 0], stack[held, 1], stack[held, 2]
             side = light.sides[level]
-            piece = light.texels[light.starts[level] + (face * side + row) * side + column]
-            cosine = direction[0] * piece[0] + direction[1] * piece[1] + direction[2] * piece[2]
-            size = 2.0 / side  # not less than the angle it takes
-            if cosine < -size:
+            at = light.starts[level] + (face * side + row) * side + column
+            cosine = x * texels[at, 0] + y * texels[at, 1] + z * texels[at, 2]
+            if cosine < -size[level]:
                 continue  # all of it is behind
-            distance = math.sqrt(max(2 - 2 * cosine, 0.0))
-            if level > 0 and size > share * (width + max(distance - size / 2, 0.0)):
+            if level > 0 and cosine > near[level]:
                 for child in range(4):
                     stack[held, 0] = level - 1
                     stack[held, 1] = 2 * row + (child >> 1)
@@ -141,10 +154,18 @@ def _sum_one(
                     held += 1
                 continue
             if cosine > 0:
-                total[0] += piece[3] * value(kind, sharpness, cosine)
-            cosine = direction[0] * piece[4] + direction[1] * piece[5] + direction[2] * piece[6]
+                total[0] += texels[at, 3] * value(kind, sharpness, cosine)
+            cosine = x * texels[at, 4] + y * texels[at, 5] + z * texels[at, 6]
             if cosine > 0:
                 weight = value(kind, sharpness, cosine)
-                total[1] += weight * piece[7]
-                total[2] += weight * piece[8]
-                total[3] += weight * piece[9]
+                total[1] += weight * texels[at, 7]
+                total[2] += weight * texels[at, 8]
+                total[3] += weight * texels[at, 9]
+
+
+@kernel
+def fill_near(near: Floats, reach: Floats, more: float) -> None:
+    """Tell each level's cosine above which its pieces are too large, `more` added to the reach."""
+    for level in range(len(reach)):
+        far = reach[level] + more
+        near[level] = 2.0 if reach[level] < 0 else -2.0 if far >= 2 else 1 - far * far / 2

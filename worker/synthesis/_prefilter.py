@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from worker.synthesis import _pieces, _spiral
+from worker.synthesis import _pieces, _spiral, _squares
 from worker.synthesis._conversion import cube_of
 from worker.synthesis._cube import halved, pyramid
 
@@ -69,11 +69,12 @@ class Gatherer:
         self._pyramid = pyramid(faces) if self.narrow else None
 
     def gather(self, directions: Floats) -> NDArray[np.float32]:
-        """Return the light (n, 3) round unit directions (n, 3)."""
+        """Return the light (height, width, 3) round the unit directions of a picture's pixels."""
         if self._pyramid is not None:
-            return _spiral.gathered(self._pyramid, self._lobe, directions)
-        return _pieces.sums(self._pieces, self._lobe, directions)
+            flat = _spiral.gathered(self._pyramid, self._lobe, directions.reshape(-1, 3))
+            return flat.reshape(directions.shape)
+        return _squares.sums(self._pieces, self._lobe, directions)
 
     def add_up(self, directions: Floats) -> NDArray[np.float32]:
-        """Return the same by brute force, over every texel of the cube (T09)."""
+        """Return the light (n, 3) round unit directions by brute force, of every texel (T09)."""
         return _pieces.sums(self._pieces, self._lobe, directions, _pieces.EVERY_TEXEL)

@@ -14,7 +14,7 @@ import numpy as np
 from api_schemas.textures.anisotropic_diffusion import AnisotropicDiffusionSpec
 from api_schemas.textures.constant import ConstantSpec
 from worker.images.image import Image
-from worker.numba_kernel import kernel, parallel_kernel, prange
+from worker.numba_kernel import kernel
 from worker.outcome import Outcome
 from worker.stages import silent
 from worker.synthesis._directions import angles_of, inflow_at, tensors_along
@@ -105,7 +105,7 @@ def warm() -> None:
     synthesize(spec, (8, 8), {"input": Image(np.zeros((16, 16, 1), np.float32), "data")}, silent)
 
 
-@parallel_kernel
+@kernel
 def _step(
     after: Cells,
     before: Cells,
@@ -115,8 +115,8 @@ def _step(
     time_step: float,
 ) -> None:
     channels, height, _ = before.shape
-    for row in prange(1, height - 1):
-        for channel in range(channels):
+    for channel in range(channels):
+        for row in range(1, height - 1):
             _step_row(
                 after[channel, row],
                 before[channel, row - 1 : row + 2],

@@ -30,7 +30,7 @@ from worker.outcome import Outcome
 from worker.stages import silent
 from worker.synthesis._counter_hash import uniforms
 from worker.synthesis._dish import channels, parameter_rows
-from worker.synthesis._gray_scott_steps import BORDERS, STEPS_AT_ONCE, advance
+from worker.synthesis._gray_scott_steps import BORDERS, STEPS_AT_ONCE, advance, fill_changes
 from worker.synthesis._reaction import told
 from worker.synthesis._resample import resample
 
@@ -131,10 +131,11 @@ def run(
             before[[0, -1], chemical] = before[:, chemical, [0, -1]] = rest
     elif spec.border == "no_flux":
         before[..., 0], before[..., -1] = before[..., 1], before[..., -2]
-    after = before.copy()
+    after, seen = before.copy(), before.copy()
+    changes = np.empty(len(before) - 2, np.float32)
     taken, change = 0, 0.0
     while taken < spec.steps:
-        seen = before.copy()
+        np.copyto(seen, before)
         start = taken
         for _ in range(_PASSES_PER_LOOK):
             steps = min(STEPS_AT_ONCE, spec.steps - taken)
@@ -147,7 +148,8 @@ def run(
             f"step {taken}",
             Image(so_far.copy(), spec.meaning) if taken < spec.steps else None,
         )
-        change = float(np.abs(before - seen)[1:-1, :, 1:-1].max()) / (taken - start)
+        fill_changes(changes, seen, before)
+        change = float(changes.max()) / (taken - start)
         if change < spec.still_below:
             break
     return before.transpose(1, 0, 2), taken, change

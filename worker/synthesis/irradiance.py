@@ -10,7 +10,7 @@ import numpy as np
 from worker import layouts
 from worker.images.image import Image
 from worker.outcome import Outcome
-from worker.synthesis import _pieces, _sphere
+from worker.synthesis import _pieces, _sphere, _squares
 from worker.synthesis._environment import harmonics_of, taken, told
 from worker.synthesis._harmonics import irradiance
 from worker.synthesis._lobes import phong
@@ -48,7 +48,8 @@ def synthesize(
         report(row / height, spec.method)
         normals, valid = layouts.direction(spec.to, middles[row : row + _ROWS].reshape(-1, 2))
         if spec.method == "sum" and light is not None:
-            shown = _pieces.sums(light, _COSINE, np.ascontiguousarray(normals))
+            picture = np.ascontiguousarray(normals).reshape(-1, width, 3)
+            shown = _squares.sums(light, _COSINE, picture).reshape(-1, 3)
         else:
             shown = np.maximum(irradiance(coefficients, normals) / math.pi, 0.0)
         rows = pixels[row : row + _ROWS]
@@ -60,6 +61,7 @@ def warm() -> None:
     """Compile the kernels."""
     _sphere.warm()
     _pieces.warm()
+    _squares.warm()
 
 
 def _missed(coefficients: Floats, light: _pieces.Pieces) -> dict[str, Any]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from api_schemas.textures.meinhardt_stripes import MeinhardtStripesSpec
-from worker.numba_kernel import parallel_kernel, prange
+from worker.numba_kernel import kernel
 from worker.synthesis._dish import at
 from worker.synthesis._reaction import Reaction, outcome_of, warmed
 
@@ -38,10 +38,10 @@ def warm() -> None:
     warmed(MeinhardtStripesSpec(technique="meinhardt_stripes", size=[16, 16], steps=1), _react)
 
 
-@parallel_kernel
+@kernel
 def _react(after: Cells, before: Cells, parameters: tuple[Rows, ...], time_step: float) -> None:
     _, height, width = before.shape
-    for row in prange(1, height - 1):
+    for row in range(1, height - 1):
         a, b, c, d, e = (
             before[0, row],
             before[1, row],

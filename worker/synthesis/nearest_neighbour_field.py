@@ -10,17 +10,24 @@ from worker.images.image import Image
 from worker.outcome import Outcome
 from worker.synthesis.by_example.exemplar import Exemplar
 from worker.synthesis.by_example.field_search import exact_field, quick_field
+from worker.synthesis.by_example.patch_match import NEVER, Field
 from worker.synthesis.by_example.result import finished, nearest
+from worker.synthesis.by_example.several_nearest import (
+    SeveralField,
+    several_exactly,
+    several_quickly,
+)
 from worker.synthesis.by_example.windows import fitting_side
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator, Mapping
 
     from numpy.typing import NDArray
 
     from api_schemas.textures.nearest_neighbour_field import NearestNeighbourFieldSpec
     from worker.stages import Report
-    from worker.synthesis.by_example.patch_match import Field
+
+    Bytes = NDArray[np.uint8]
 
 
 def synthesize(
@@ -39,27 +46,70 @@ def synthesize(
     exemplar = Exemplar.of(inputs)
     target = exemplar.matching(inputs["target"])
     side = fitting_side(exemplar.usable, target.shape[:2], spec.patch)
-    energies: list[float] = []
-    if spec.method == "exact":
-        field = exact_field(target, exemplar.features, exemplar.usable, side, report)
-        energies = [float(field.costs.mean())]
-    else:
-        passes = quick_field(target, exemplar.features, exemplar.usable, side, spec.seed)
-        for done in range(spec.iterations + 1):
-            field = next(passes)
-            energies.append(float(field.costs.mean()))
-            report((done + 1) / (spec.iterations + 1), f"pass {done} of {spec.iterations}")
-    offsets = _over_pixels(_offsets(field), target.shape[:2], side).astype(np.int64)
-    distances = np.sqrt(field.costs / (side * side * target.shape[2])) / 255
-    distances = _over_pixels(distances[..., np.newaxis], target.shape[:2], side)
+    fields, energies = _search(spec, exemplar, target, side, report)
+    beside: dict[str, NDArray[np.generic]] = {}
+    for rank, field in enumerate(fields):
+        name = f"_{rank + 1}" if rank else ""
+        offsets = _over_pixels(_offsets(field), target.shape[:2], side).astype(np.int64)
+        distances = np.sqrt(field.costs / (side * side * target.shape[2])) / 255
+        distances = np.where(field.costs < NEVER, distances, 1.0)[..., np.newaxis]
+        beside[f"offset{name}"] = offsets[..., ::-1]
+        beside[f"distance{name}"] = _over_pixels(distances, target.shape[:2], side)
+    offsets = beside["offset"][..., ::-1].astype(np.int64)
     place = (np.moveaxis(np.indices(target.shape[:2]), 0, -1) + offsets).astype(np.int32)
     made = finished(place, exemplar, inputs, size)
-    beside = {"offset": offsets[..., ::-1], "distance": distances}
     return Outcome(
         made.image,
         {**made.layers, **{name: _layer(values, size) for name, values in beside.items()}},
         {**made.report, "patch": side, "energies": [round(energy, 3) for energy in energies]},
     )
+
+
+def warm() -> None:
+    """Compile the kernels of several places."""
+    features = np.arange(75, dtype=np.uint8).reshape(5, 5, 3)
+    passes = several_quickly(features, features, np.ones((5, 5), bool), 3, 0, 2)
+    next(passes)
+    next(passes)
+
+
+def _search(
+    spec: NearestNeighbourFieldSpec, exemplar: Exemplar, target: Bytes, side: int, report: Report
+) -> tuple[list[Field], list[float]]:
+    """Return the field of the nearest patches, of the second nearest, and so on; and energies."""
+    source, usable, several = exemplar.features, exemplar.usable, spec.nearest > 1
+    if spec.method == "exact":
+        if several:
+            exact = several_exactly(target, source, usable, side, spec.nearest, report)
+            return _each(exact), [_energy(exact)]
+        field = exact_field(target, source, usable, side, report)
+        return [field], [_energy(field)]
+    passes: Iterator[Field | SeveralField] = (
+        several_quickly(target, source, usable, side, spec.seed, spec.nearest)
+        if several
+        else quick_field(target, source, usable, side, spec.seed)
+    )
+    energies = []
+    for done in range(spec.iterations + 1):
+        found = next(passes)
+        energies.append(_energy(found))
+        report((done + 1) / (spec.iterations + 1), f"pass {done} of {spec.iterations}")
+    return ([found] if isinstance(found, Field) else _each(found)), energies
+
+
+def _each(field: SeveralField) -> list[Field]:
+    """Return the fields of all ranks; where there is none of a rank, its place is the nearest."""
+    found = []
+    for rank in range(field.costs.shape[2]):
+        costs = field.costs[..., rank]
+        rows, columns = (np.where(costs < NEVER, p[..., rank], p[..., 0]) for p in field[:2])
+        found.append(Field(rows, columns, costs))
+    return found
+
+
+def _energy(field: Field | SeveralField) -> float:
+    """Return the mean cost of what was found."""
+    return float(field.costs[field.costs < NEVER].mean())
 
 
 def _offsets(field: Field) -> NDArray[np.int64]:

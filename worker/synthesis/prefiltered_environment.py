@@ -9,7 +9,7 @@ import numpy as np
 from worker import layouts
 from worker.images.image import Image
 from worker.outcome import Outcome
-from worker.synthesis import _pieces, _sphere, _spiral
+from worker.synthesis import _pieces, _sphere, _spiral, _squares
 from worker.synthesis._conversion import converted
 from worker.synthesis._environment import taken
 from worker.synthesis._lobes import SMOOTHEST, Lobe, ggx, phong
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     Pixels = NDArray[np.float32]
 
 _ROWS = 32
-_PROBES = 64
+_PROBES = 24
 
 
 def synthesize(
@@ -69,6 +69,7 @@ def warm() -> None:
     _sphere.warm()
     _spiral.warm()
     _pieces.warm()
+    _squares.warm()
 
 
 def _lobes(spec: PrefilteredEnvironmentSpec) -> list[Lobe]:
@@ -95,7 +96,10 @@ def _panel(
         report(row / height, "gather")
         towards, valid = layouts.direction(spec.to, places[row : row + _ROWS].reshape(-1, 2))
         towards = np.ascontiguousarray(towards)
-        light = gatherer.add_up(towards) if spec.method == "sum" else gatherer.gather(towards)
+        if spec.method == "sum":
+            light = gatherer.add_up(towards)
+        else:
+            light = gatherer.gather(towards.reshape(-1, width, 3)).reshape(-1, 3)
         if spec.show == "error":
             light = np.abs(light - gatherer.add_up(towards))
         rows = pixels[row : row + _ROWS]
@@ -106,7 +110,7 @@ def _panel(
 def _error(gatherer: Gatherer) -> dict[str, Any]:
     towards = probes(_PROBES)
     exact = gatherer.add_up(towards).astype(np.float64)
-    error, mean = gatherer.gather(towards) - exact, exact.mean()
+    error, mean = gatherer.gather(towards[np.newaxis])[0] - exact, exact.mean()
     if not mean > 0:
         return {}
     return {

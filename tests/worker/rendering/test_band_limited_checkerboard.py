@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from pydantic import TypeAdapter
 
-from api_schemas.language import Texture
+from api_schemas.members import Texture
 from worker import synthesis
 from worker.synthesis.band_limited_checkerboard import color_at
 

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from pydantic import TypeAdapter
 
-from api_schemas.language import FAMILIES, Layout
+from api_schemas.language import FAMILIES
+from api_schemas.members import Layout
 from worker import layouts
 
 pytestmark = pytest.mark.gl

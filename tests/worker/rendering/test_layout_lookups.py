@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from pydantic import TypeAdapter
 
-from api_schemas.language import FAMILIES, Layout
+from api_schemas.language import FAMILIES
+from api_schemas.members import Layout
 from tests.worker.rendering.coded import ORTHOGRAPHIC, angles, directions, pixel_middles, shown
 from tests.worker.rendering.studio import Studio
 from worker import layouts

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from pydantic import TypeAdapter
 
-from api_schemas.language import Coordinates, Layout
+from api_schemas.members import Coordinates, Layout
 from tests.worker.rendering.studio import Studio
 from worker.errors import RenderError
 from worker.geometry.mesh import Mesh

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from pydantic import TypeAdapter
 
-from api_schemas.language import Texture
 from api_schemas.layouts.latlong import LatlongSpec
+from api_schemas.members import Texture
 from api_schemas.textures.image import ImageSpec
 from tests.worker.rendering.coded import shown
 from tests.worker.rendering.studio import Studio

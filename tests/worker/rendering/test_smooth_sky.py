@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from pydantic import TypeAdapter
 
-from api_schemas.language import Texture
+from api_schemas.members import Texture
 from tests.worker.rendering.studio import Studio
 from tests.worker.rendering.surroundings import CHALK, ball, ball_normals, latlong
 from worker.geometry.mesh import Mesh

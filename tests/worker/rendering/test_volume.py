@@ -154,6 +154,29 @@ def test_light_from_everywhere_is_scattered_by_the_colour(studio: Studio) -> Non
     np.testing.assert_allclose(seen[..., :3], expected + 0 * seen[..., :3], rtol=1e-5)
 
 
+def test_an_even_sky_shines_from_everywhere(studio: Studio) -> None:
+    sky = {"texture": studio.texture(np.full((32, 64, 3), 0.7)), "visible": False}
+
+    seen = cloud(studio, box(color=[1.0, 0.5, 0.25], extinction=0.6), environment=sky)
+
+    expected = (1 - np.exp(-1.2)) * 0.7 * np.array([1, 0.5, 0.25])
+    np.testing.assert_allclose(seen[..., :3], expected + 0 * seen[..., :3], rtol=2e-3)
+
+
+def test_a_lamp_within_is_dimmed_only_by_what_is_before_it(studio: Studio) -> None:
+    lamp = {"type": "point", "position": [0.5, 0.2, 0.0], "intensity": 2.0}
+
+    seen = cloud(studio, box(steps=256, light_steps=1), lights=[lamp])[..., 0]
+
+    along = (np.arange(6) + 0.5) / 3 - 1
+    x, y = np.meshgrid(along, -along)
+    t = (np.arange(4096) + 0.5) / 2048
+    squared = (x - 0.5)[..., None] ** 2 + (y - 0.2)[..., None] ** 2 + (1 - t) ** 2
+    arrives = np.exp(-np.sqrt(squared)) / squared
+    expected = 2 / (4 * np.pi) * (np.exp(-t) * arrives).sum(axis=-1) / 2048
+    np.testing.assert_allclose(seen, expected, rtol=2e-3)
+
+
 @pytest.mark.parametrize(
     ("light_steps", "expected"),
     [

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import TypeAdapter
 
-from api_schemas.language import Layout, Texture
+from api_schemas.members import Layout, Texture
 from worker import layouts
 from worker.images.image import Image
 from worker.outcome import Outcome

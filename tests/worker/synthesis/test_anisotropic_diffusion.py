@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from pydantic import TypeAdapter
 
-from api_schemas.language import Texture
+from api_schemas.members import Texture
 from worker.images.image import Image
 from worker.synthesis import outcome
 from worker.synthesis._directions import directions_of
@@ -83,17 +83,6 @@ def test_t51_whatever_the_directions_no_mass_is_lost_and_nothing_grows(border):
     assert list(described.refusals()) == []
     assert after.sum() == pytest.approx(start.sum(), rel=1e-12)
     assert (after**2).sum() < (start**2).sum()
-
-
-def test_cells_do_not_depend_on_the_number_of_threads(with_threads):
-    random = np.random.default_rng(5)
-    start, angles = random.random((37, 48)), random.uniform(0, np.pi, (37, 48))
-    described = spec(size=[48, 37], steps=30)
-
-    one = with_threads(1, lambda: spread(described, start, angles).tobytes())
-    two = with_threads(2, lambda: spread(described, start, angles).tobytes())
-
-    assert one == two
 
 
 def test_t51_it_fades_by_exp_minus_b_t():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from pydantic import TypeAdapter, ValidationError
 
-from api_schemas.language import Texture
+from api_schemas.members import Texture
 from tests.checkered_plane import FOCAL, SIDE, exact_plane
 from worker.synthesis.band_limited_checkerboard import closed_form, color_at
 

@@ -5,7 +5,7 @@ import pytest
 from pydantic import TypeAdapter
 
 from api_schemas.feasibility import obstacles
-from api_schemas.language import Texture
+from api_schemas.members import Texture
 from api_schemas.requests import TextureRequest
 from worker.synthesis import synthesize, synthesize_volume
 

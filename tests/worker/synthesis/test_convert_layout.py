@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from pydantic import TypeAdapter
 
-from api_schemas.language import Layout
+from api_schemas.members import Layout
 from tests.worker.synthesis.spheres import picture, run
 from worker import layouts
 from worker.errors import RenderError

@@ -3,7 +3,7 @@
 import pytest
 from pydantic import TypeAdapter
 
-from api_schemas.language import Texture
+from api_schemas.members import Texture
 from worker.synthesis import outcome
 
 NOISE = {"technique": "perlin", "frequency": 4}

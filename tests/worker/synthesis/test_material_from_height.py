@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from pydantic import TypeAdapter
 
-from api_schemas.language import Texture
+from api_schemas.members import Texture
 from tests.run_example import run_example
 from tests.worker.images.exr_bytes import parse_exr
 from worker.images.image import Image

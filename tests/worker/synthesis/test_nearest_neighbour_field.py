@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from pydantic import TypeAdapter
 
-from api_schemas.language import Texture
+from api_schemas.members import Texture
 from worker.images import image_io
 from worker.images.image import Image
 from worker.stages import silent

@@ -4,7 +4,8 @@ import pytest
 from pydantic import TypeAdapter
 
 from api_schemas.families import PresetSpec
-from api_schemas.language import FAMILIES, Texture
+from api_schemas.language import FAMILIES
+from api_schemas.members import Texture
 from api_schemas.solid import flat_parts
 from worker.synthesis import synthesize, synthesize_volume
 

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from pydantic import TypeAdapter
 
-from api_schemas.language import FAMILIES, Texture
+from api_schemas.language import FAMILIES
+from api_schemas.members import Texture
 from worker.errors import RenderError
 from worker.images.image import Image
 from worker.synthesis import outcome

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from pydantic import TypeAdapter
 
-from api_schemas.language import Texture
 from api_schemas.layouts.cube import CubeSpec
+from api_schemas.members import Texture
 from worker import layouts
 from worker.images.image import Image
 from worker.stages import silent

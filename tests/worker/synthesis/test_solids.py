@@ -5,7 +5,8 @@ import pytest
 from pydantic import TypeAdapter
 
 from api_schemas.families import TextureSpec
-from api_schemas.language import FAMILIES, Texture
+from api_schemas.language import FAMILIES
+from api_schemas.members import Texture
 from worker.synthesis import synthesize, synthesize_volume
 from worker.synthesis._perlin_points import noise3
 from worker.synthesis._permutation import permutation

@@ -10,7 +10,8 @@ from numba.core.registry import CPUDispatcher
 from pydantic import TypeAdapter
 
 import worker.synthesis
-from api_schemas.language import FAMILIES, Texture
+from api_schemas.language import FAMILIES
+from api_schemas.members import Texture
 from worker.images.image import Image
 from worker.synthesis import synthesize, synthesize_volume, techniques, warm
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from pydantic import TypeAdapter
 
-from api_schemas.language import Texture
+from api_schemas.members import Texture
 from worker.images.image import Image
 from worker.synthesis import outcome
 from worker.synthesis._seams import least_seam

@@ -61,6 +61,35 @@ def nearest_patches(
     return best + np.einsum("ij,ij->i", queries, queries), place
 
 
+def nearest_several(
+    ours: Bytes, chosen: NDArray[np.int64], theirs: Bytes, usable: Mask, side: int, count: int
+) -> tuple[NDArray[np.float32], NDArray[np.int64]]:
+    """Return the smallest squared differences and their corners, (chosen, count), in order.
+
+    Of equal ones those come first that are first row by row. Where less than so many patches of
+    theirs fit, the others are infinitely far, at the corner of the nearest.
+    """
+    queries = _patches(ours, side, chosen)
+    best = np.full((len(queries), count), np.inf, np.float32)
+    place = np.zeros((len(queries), count), np.int64)
+    corners = np.flatnonzero(whole_windows(usable, (side, side)))
+    for block in _blocks(corners):
+        others = _patches(theirs, side, block)
+        scores = np.einsum("ij,ij->i", others, others) - 2 * (queries @ others.T)
+        found, places = [best], [place]
+        for _ in range(min(count, len(block))):
+            nearest = scores.argmin(axis=1)[:, np.newaxis]
+            found.append(np.take_along_axis(scores, nearest, axis=1))
+            places.append(block[nearest])
+            np.put_along_axis(scores, nearest, np.inf, axis=1)
+        scored, there = np.concatenate(found, axis=1), np.concatenate(places, axis=1)
+        order = scored.argsort(axis=1, kind="stable")[:, :count]
+        best = np.take_along_axis(scored, order, axis=1)
+        place = np.take_along_axis(there, order, axis=1)
+    place = np.where(np.isinf(best), place[:, :1], place)
+    return best + np.einsum("ij,ij->i", queries, queries)[:, np.newaxis], place
+
+
 def _blocks(corners: NDArray[np.int64]) -> Iterator[NDArray[np.int64]]:
     for start in range(0, len(corners), _BLOCK):
         yield corners[start : start + _BLOCK]

@@ -27,7 +27,7 @@ from worker.synthesis.by_example.patch_match import (
     lines,
 )
 from worker.synthesis.by_example.pyramid import doubled
-from worker.synthesis.by_example.starting import continued_outwards, random_blocks
+from worker.synthesis.by_example.starting import brought_to, continued_outwards, random_blocks
 from worker.synthesis.by_example.task import levels
 from worker.synthesis.by_example.voting import vote
 from worker.synthesis.by_example.windows import fitting_side, whole_windows
@@ -87,7 +87,9 @@ def _rounds(level: Level) -> int:
 
 
 def _begun(task: Task, level: Level, *, dense: bool) -> _Search:
-    """Begin several times with other random numbers, and go on with what fits best."""
+    """Begin with what is given, or several times by chance, and go on with what fits best."""
+    if task.start is not None:
+        return _Search(task, level, dense=dense).following(task.start)
     found = [_Search(task, level, dense=dense).random(use) for use in range(_STARTS)]
     for state in found:
         for turn in range(_rounds(level) // 2):
@@ -128,6 +130,15 @@ class _Search:
             self._active = self._needed
         else:
             self._vote()
+        return self
+
+    def following(self, start: Integers) -> _Search:
+        """Begin with a map that is nearly right."""
+        source = self._level.usable.shape
+        rows, columns = brought_to(start, self._task.usable.shape, source, self._grid)
+        self._field = Field.of(*self._onto_allowed(rows, columns))
+        self._active = np.ones(self._grid.counts, bool)
+        self._vote()
         return self
 
     def refining(self, coarser: _Search) -> _Search:

@@ -14,6 +14,7 @@ from scipy import ndimage
 from worker.synthesis.by_example.copies import continued, copied_so_far
 from worker.synthesis.by_example.exact import nearest_distances
 from worker.synthesis.by_example.pyramid import halved
+from worker.synthesis.by_example.wasserstein import sliced_wasserstein
 from worker.synthesis.by_example.windows import whole_windows
 
 if TYPE_CHECKING:
@@ -44,7 +45,8 @@ def quality(place: Integers, exemplar: Exemplar) -> Figures:
         largest such step inside: up to 1 it is not seen. `to_exemplar_<k>`
         and `from_exemplar_<k>`: the mean distance, 0..1, from the result's 9 x 9 patches to the
         exemplar's nearest and the other way round, at 1/k of the size; None where too small or too
-        large to tell.
+        large to tell. `wasserstein_<k>`: how far they are from the exemplar's as a whole, which
+        agrees less with the eye.
     """
     rows, columns = np.moveaxis(place, -1, 0)
     made = rows >= 0
@@ -66,6 +68,7 @@ def quality(place: Integers, exemplar: Exemplar) -> Figures:
         theirs, usable = halved(theirs, usable)
         figures[f"to_exemplar_{scale}"] = patch_distance(ours, known, theirs, usable)
         figures[f"from_exemplar_{scale}"] = patch_distance(theirs, usable, ours, known)
+        figures[f"wasserstein_{scale}"] = sliced_wasserstein(ours, known, theirs, usable, _PATCH)
     return figures
 
 

@@ -45,6 +45,33 @@ def random_blocks(
     return found[0], found[1]
 
 
+def brought_to(
+    place: NDArray[np.int32], whole: tuple[int, int], source: tuple[int, int], grid: PatchGrid
+) -> tuple[Integers, Integers]:
+    """Return rows and columns of the source patches that a map of another size comes near to.
+
+    Args:
+        place: Rows and columns of the whole source, (height, width, 2).
+        whole: Its height and width.
+        source: The same of the source as it is on this level.
+        grid: Of the target's patches.
+    """
+    middles = [
+        (np.arange(count) * grid.stride + grid.side // 2 + 0.5) * length / size
+        for count, length, size in zip(grid.counts, place.shape, grid.size, strict=False)
+    ]
+    rows, columns = (
+        np.minimum(middle, length - 1).astype(np.int64)
+        for middle, length in zip(middles, place.shape, strict=False)
+    )
+    there = place[rows[:, np.newaxis], columns]
+    found = [
+        np.round((there[..., axis] + 0.5) * source[axis] / whole[axis] - 0.5) - grid.side // 2
+        for axis in (0, 1)
+    ]
+    return found[0].astype(np.int64), found[1].astype(np.int64)
+
+
 def continued_outwards(features: Bytes, fixed: Mask) -> Bytes:
     """Return features in which each unknown pixel is like the nearest fixed one."""
     rows, columns = ndimage.distance_transform_edt(

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
     Bytes = NDArray[np.uint8]
     Mask = NDArray[np.bool_]
+    Integers = NDArray[np.int32]
 
 SIDES = (9, 9, 7)
 """Of patches on each level from coarse to fine, then as on the last one named."""
@@ -36,6 +37,7 @@ class Task:
         fixed: Which target pixels stay, (height, width), or None for none.
         target: Their features, (height, width, channels), where any are fixed.
         variety: How strongly patches are kept from being used too often; 1 is ordinary.
+        start: A coordinate map, (height, width, 2) of any size, that is like the one wanted.
         longest_copy: How much of the exemplar's height and width may be copied in one line, 0..1;
             None for any length.
     """
@@ -49,6 +51,7 @@ class Task:
     fixed: Mask | None = None
     target: Bytes | None = None
     variety: float = 1.0
+    start: Integers | None = None
     longest_copy: float | None = None
 
     def keeping(self, target: Bytes, fixed: Mask) -> Task:
