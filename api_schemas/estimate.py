@@ -25,6 +25,7 @@ from api_schemas.cookies import Cookie
 from api_schemas.coordinates.triplanar import TriplanarSpec
 from api_schemas.cost import Cost
 from api_schemas.coverage import coverage, stand_in
+from api_schemas.environment import SKY_LAMPS
 from api_schemas.families import SurfaceSpec, TextureSpec
 from api_schemas.geometry import IDENTITY, Affine, Vector3, affine
 from api_schemas.light_cost import cookies_of, seconds_of_shadows, shadow_maps
@@ -42,6 +43,7 @@ from api_schemas.walk import BRANCHES, outermost, parts
 
 SECONDS_PER_SHADED_SAMPLE = 6e-8
 SECONDS_PER_LIGHT_SAMPLE = 1e-8
+SECONDS_PER_SKY_LAMP = 1e-7
 SECONDS_PER_MAP_SAMPLE = {
     "nearest": 1e-8,
     "bilinear": 1e-8,
@@ -146,6 +148,8 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
     cost += Cost(samples * _seconds_per_sample(background))
     if (environment := scene.environment) is not None:
         lighting += SKY_SECONDS_PER_SAMPLE
+        if environment.gathered == "sum":
+            lighting += SKY_LAMPS * SECONDS_PER_SKY_LAMP
         cost += Cost(samples * SKY_SECONDS_PER_SAMPLE) + sky_textures(environment).cost()
         cost += _textures(environment.texture, facts, environment.texture.surface_size)
         cost += Cost(bytes=_texels_worn(environment.texture, facts) * BYTES_PER_KEPT_TEXEL)

@@ -16,7 +16,7 @@ from pydantic import TypeAdapter
 
 from api_schemas.environment import Environment
 from api_schemas.families import Meaning
-from api_schemas.language import Texture
+from api_schemas.members import Texture
 from api_schemas.output import RenderOutput
 from api_schemas.scene import Scene
 from api_schemas.sky import sky_textures
