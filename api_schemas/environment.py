@@ -26,6 +26,11 @@ class Surroundings(Schema):
     )
 
 
+SKY_LAMPS_SIDE = 16
+"""Cells along each side of a cube, in each of which the light that is added up is one lamp."""
+SKY_LAMPS = 6 * SKY_LAMPS_SIDE**2
+
+
 class Environment(Schema):
     """What is infinitely far away, shines on everything, and is seen in mirrors and behind all."""
 
@@ -51,6 +56,13 @@ class Environment(Schema):
         default="mend",
         description="Whether what is no number counts as dark, and what is infinite as the "
         "brightest that is finite, or the job fails where there is any.",
+    )
+    gathered: Literal["prefiltered", "sum"] = Field(
+        default="prefiltered",
+        description="How its light on surfaces is found: looked up in pictures that were blurred "
+        "before, or added up from up to 1536 directions at every sample, which is right for the "
+        "formula of each surface, coarse for smooth ones, and slow. metallic_roughness, ward and "
+        "ashikhmin_shirley can add up; others look up.",
     )
     matt: Literal["sum", "harmonics"] = Field(
         default="sum",

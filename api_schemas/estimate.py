@@ -17,6 +17,7 @@ from api_schemas.bodies import (
     Body,
     body,
     displaced,
+    framed,
 )
 from api_schemas.by_example import FromExemplarSpec
 from api_schemas.camera import Camera, FramedCamera, ModelCamera, PosedCamera
@@ -24,6 +25,7 @@ from api_schemas.cookies import Cookie
 from api_schemas.coordinates.triplanar import TriplanarSpec
 from api_schemas.cost import Cost
 from api_schemas.coverage import coverage, stand_in
+from api_schemas.environment import SKY_LAMPS
 from api_schemas.families import SurfaceSpec, TextureSpec
 from api_schemas.geometry import IDENTITY, Affine, Vector3, affine
 from api_schemas.light_cost import cookies_of, seconds_of_shadows, shadow_maps
@@ -41,6 +43,7 @@ from api_schemas.walk import BRANCHES, outermost, parts
 
 SECONDS_PER_SHADED_SAMPLE = 6e-8
 SECONDS_PER_LIGHT_SAMPLE = 1e-8
+SECONDS_PER_SKY_LAMP = 1e-7
 SECONDS_PER_MAP_SAMPLE = {
     "nearest": 1e-8,
     "bilinear": 1e-8,
@@ -145,6 +148,8 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
     cost += Cost(samples * _seconds_per_sample(background))
     if (environment := scene.environment) is not None:
         lighting += SKY_SECONDS_PER_SAMPLE
+        if environment.gathered == "sum":
+            lighting += SKY_LAMPS * SECONDS_PER_SKY_LAMP
         cost += Cost(samples * SKY_SECONDS_PER_SAMPLE) + sky_textures(environment).cost()
         cost += _textures(environment.texture, facts, environment.texture.surface_size)
         cost += Cost(bytes=_texels_worn(environment.texture, facts) * BYTES_PER_KEPT_TEXEL)
@@ -162,6 +167,7 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
             cost += Cost(MAPS_OF_A_MATERIAL * SECONDS_TO_COMPILE_A_MAP * found.pictures)
         shown = node.surface_map or node.surface or node.mesh
         surfaces = [part for _, part in parts(shown) if isinstance(part, SurfaceSpec)]
+        cost += framed(found, surfaces)
         maps = [_maps(surface) for surface in surfaces]
         among: list[MAPS] = [] if node.surface_map is None else [node.surface_map]
         for worn in [*maps, among, _maps(node.displacement)]:

@@ -166,6 +166,9 @@ class SurfaceSpec(TechniqueSpec):
     """Whether it is what is in a box, and not its sides: no other mesh may wear it, and it keeps no
     light from what is behind it."""
 
+    sums_sky: ClassVar[bool] = False
+    """Whether its formula may be added up over all directions that light comes from."""
+
     opacity: MappableNonNegative = Field(
         default=1.0,
         description="How much of what is behind is hidden, where alpha_mode is mask or blend.",

@@ -25,8 +25,8 @@ class MadeAt:
     """Marks a field with a texture that is not made at its parent's size.
 
     Attributes:
-        size: `own`: that of its own pixels; of the field `exemplar` the spec's `exemplar_size`
-            may say another.
+        size: `own`: that of its own pixels; of functions the spec's `function_size`, if it has
+            one; of the field `exemplar` the spec's `exemplar_size` may say another.
             `exemplar`: that of the field `exemplar`. `result`: the spec's own `size`.
     """
 
@@ -73,7 +73,8 @@ def size_within(
     if source == "exemplar" and (wanted := getattr(texture, "exemplar_size", None)):
         width, height = wanted
         return (width, height)
-    return own_size(getattr(texture, source), measure)
+    functions: Size = getattr(texture, "function_size", FUNCTION_SIZE)
+    return _size(getattr(texture, source), measure) or functions
 
 
 def _size(texture: TextureSpec, measure: Callable[[ImageSpec], Size]) -> Size | None:

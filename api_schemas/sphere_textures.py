@@ -7,9 +7,10 @@ from pydantic import Field
 
 from api_schemas.cost import Cost
 from api_schemas.families import TextureSpec
+from api_schemas.layouts.cube import CubeSpec
 from api_schemas.maps import COLOUR
 from api_schemas.members import Layout, Texture
-from api_schemas.own_size import OWN_SIZE
+from api_schemas.own_size import FUNCTION_SIZE, OWN_SIZE
 
 
 class SphereSpec(TextureSpec):
@@ -40,9 +41,17 @@ class SphereSpec(TextureSpec):
         unit = max(1, round(self.cube_side * math.sqrt(6 / (width * height))))
         return (width * unit, height * unit)
 
+    @property
+    def function_size(self) -> tuple[int, int]:
+        """Width and height of light made of functions: no face ends within a row."""
+        if not isinstance(self.layout, CubeSpec):
+            return FUNCTION_SIZE
+        columns, rows = self.layout.proportion
+        return (FUNCTION_SIZE[0] * columns, FUNCTION_SIZE[1] * rows)
+
     def cost(self, pixels: int) -> Cost:
         """Every direction is looked up a few times, and the source is read."""
-        return Cost(seconds=1.0 + pixels * 2e-6, bytes=pixels * 64.0 + 1e8)
+        return Cost(seconds=0.3 + pixels * 1.5e-6, bytes=pixels * 64.0 + 1e8)
 
 
 class SphereTextureSpec(SphereSpec):

@@ -117,6 +117,7 @@ OBSTACLE_CODES: Final = (
     "too_many_nodes",
     "too_many_maps",
     "layout_without_direction",
+    "volume_without_box",
     "layout_mismatch",
     "layout_impossible",
     "formula_missing",

@@ -40,9 +40,14 @@ def warm(report: Report) -> dict[str, Any]:
         `fingerprint`: everything outside a request that decides pixels.
     """
     synthesis.warm(lambda share, name: report(0.5 * share, name))
-    renderer.warm(lambda share, name: report(0.5 + 0.5 * share, name), _maker(_no_picture))
+    warm_shaders(lambda share, name: report(0.5 + 0.5 * share, name))
     report(1.0, "ready")
     return {"fingerprint": fingerprint()}
+
+
+def warm_shaders(report: Report) -> None:
+    """Compile the usual shaders, or find them compiled."""
+    renderer.warm(report, _maker(_no_picture))
 
 
 def run(request: dict[str, Any], out: Path, report: Report) -> dict[str, Any]:

@@ -16,6 +16,7 @@ class MetallicRoughnessSpec(SurfaceSpec):
     Ambient light counts as a uniform sky. Colours of the mesh's vertices multiply base_color.
     """
 
+    sums_sky: ClassVar[bool] = True
     source: ClassVar[str] = (
         "Khronos, glTF 2.0, appendix B, 2021, with KHR_materials_ior, _specular, _clearcoat and "
         "_anisotropy; Walter et al., 2007; Burley, 2012; Heitz, 2014; Karis, 2013 (sky); Turquin, "

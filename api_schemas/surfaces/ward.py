@@ -14,6 +14,7 @@ class WardSpec(SurfaceSpec):
     """Light scattered by scratches: an elliptical highlight, fitted to measurements."""
 
     revision: ClassVar[int] = 2
+    sums_sky: ClassVar[bool] = True
     source: ClassVar[str] = "Ward, 1992"
     equation: ClassVar[str] = (
         "f = rd / pi + rs exp(-tan^2 d (cos^2 p / ax^2 + sin^2 p / ay^2)) "

@@ -172,3 +172,13 @@ def test_six_faces_keep_their_own_pixels(arrangement: str) -> None:
         arrangement
     ]
     assert size == (300 * columns, 300 * rows)
+
+
+def test_a_sky_that_is_added_up_costs_a_thousand_lamps_a_sample() -> None:
+    def seconds(gathered: str) -> float:
+        body = scene({"texture": PICTURE, "gathered": gathered}).model_dump()
+        body["output"]["size"] = [1024, 1024]
+        return estimate(RenderRequest.model_validate(body), facts(512, 256)).seconds
+
+    # A framed ball fills a third of a million pixels at least.
+    assert seconds("sum") > seconds("prefiltered") + 0.3 * 2**20 * 1536 * 5e-8

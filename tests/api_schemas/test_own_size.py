@@ -55,3 +55,18 @@ def test_an_exemplar_keeps_its_pixels_and_guides_are_as_large_as_the_result():
         assert size_within(grown, name, (70, 50), measure) == (300, 200)
         assert size_within(smaller, name, (70, 50), measure) == (30, 20)
     assert size_within(grown, "guide", (70, 50), measure) == (64, 40)
+
+
+@pytest.mark.parametrize(
+    ("arrangement", "size"), [("column", (256, 1536)), ("row", (1536, 256)), ("cross", (1024, 768))]
+)
+def test_functions_on_the_faces_of_a_cube_have_whole_rows_and_columns(arrangement, size):
+    sky = texture(
+        {
+            "technique": "convert_layout",
+            "environment": {"technique": "gradient"},
+            "layout": {"technique": "cube", "arrangement": arrangement},
+        }
+    )
+
+    assert size_within(sky, "environment", (64, 32), measure) == size

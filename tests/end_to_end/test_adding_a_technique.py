@@ -11,7 +11,12 @@ import pytest
 from tests.running_service import ROOT
 
 # It compiles every kernel anew, which takes two minutes: left to `make test-all`.
-pytestmark = [pytest.mark.end_to_end, pytest.mark.gl, pytest.mark.contract]
+pytestmark = [
+    pytest.mark.end_to_end,
+    pytest.mark.gl,
+    pytest.mark.contract,
+    pytest.mark.timeout(900),  # what lies elsewhere is compiled anew
+]
 
 SPEC = '''
 """Bands of two greys."""
@@ -83,7 +88,7 @@ def test_a_new_texture_is_in_the_language_the_catalogue_and_the_renderer(copy, m
     (copy / "worker/synthesis/stripes.py").write_text(IMPLEMENTATION.lstrip())
     (copy / "api_schemas/examples/textures/stripes.json").write_text(json.dumps(EXAMPLE))
 
-    service = make_service(folder=copy)
+    service = make_service(folder=copy, slots="1")
     with service.client() as client:
         page = client.get("/v1/techniques/textures/stripes").json()
         picture = client.post("/v1/textures", json=EXAMPLE, headers={"Accept": "image/png"})

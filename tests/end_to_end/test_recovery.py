@@ -92,6 +92,7 @@ def test_a_cancelled_job_stops_and_the_next_one_is_served(make_service):
 
         assert client.delete(f"/v1/jobs/{job}").json()["id"] == job
         assert wait_for(client, job, {"cancelled"}, seconds=5)["state"] == "cancelled"
+        service.wait_until_warm()
         following = client.post(
             "/v1/textures",
             json={"texture": {"technique": "perlin"}, "output": {"size": [16, 16]}},

@@ -20,6 +20,7 @@ KEPT = {
     "phong": "soda_can",
     "unlit": "labelled_can",
     "uv": "soda_can",
+    "ward": "brushed",
 }
 
 

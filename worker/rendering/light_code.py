@@ -2,6 +2,18 @@
 
 from worker.rendering.shading_layout import LightLayout
 
+_LAMPS_ALONE = (
+    "int light_total() { return light_count; }",
+    "Light light_at(int index, SurfacePoint point) { return lamp_let_through(index, point); }",
+)
+_WITH_SKY = (
+    "int light_total() { return light_count + sky_lamp_count; }",
+    "Light light_at(int index, SurfacePoint point) {",
+    "    if (index >= light_count) return sky_lamp(index - light_count);",
+    "    return lamp_let_through(index, point);",
+    "}",
+)
+
 
 def light_chunks(layout: LightLayout) -> list[str]:
     """Return the chunks that let_through needs."""
@@ -39,4 +51,5 @@ def light_lines(layout: LightLayout) -> list[str]:
         f"look_up(place, mat3(1.0), cookie_period[{number}], cookie_size[{number}])).rgb;"
         for number, cookie in enumerate(layout.cookies)
     ]
-    return [*lines, "    return share;", "}"]
+    lines += ["    return share;", "}"]
+    return [*lines, *(_WITH_SKY if layout.sky == "lamps" else _LAMPS_ALONE)]

@@ -158,7 +158,9 @@ class FloatRenderer(pyrender.Renderer):  # type: ignore[misc]
         lights = LightLayout()
         if is_lit(layout.technique):
             sky = self._frame.scene.sky_of(primitive)
-            lights = replace(self._frame.lights.layout, sky=sky.kind if sky else "none")
+            lights = replace(
+                self._frame.lights.layout, sky=sky.kind_for(layout.technique) if sky else "none"
+            )
         elif self._frame.lights.layout.visibility:
             lights = self._frame.lights.layout
         plane = primitive.mesh.tile is not None

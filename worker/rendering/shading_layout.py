@@ -9,7 +9,7 @@ from worker.rendering.calls import Call
 from worker.rendering.samplers import Sampling
 from worker.rendering.textures import TextureFormat
 
-SkyKind = Literal["none", "latlong", "cube", "hemispheres"]
+SkyKind = Literal["none", "latlong", "cube", "hemispheres", "lamps"]
 """The chunks of shaders/skies."""
 
 SPACE_FILTERS: tuple[Filter, ...] = ("nearest", "bilinear", "trilinear")

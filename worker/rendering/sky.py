@@ -6,24 +6,25 @@ What is blurred is made by texture techniques, as anyone could ask for it, and k
 import hashlib
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from api_schemas.environment import Environment
-from api_schemas.families import Meaning, TextureSpec
+from api_schemas.families import Meaning, SurfaceSpec, TextureSpec
+from api_schemas.language import FAMILIES
 from api_schemas.layouts.cube import CubeSpec
 from api_schemas.layouts.hemispheres import HemispheresSpec
 from api_schemas.layouts.latlong import LatlongSpec
 from api_schemas.sky import SKY_ROUGHNESS, SkyTextures, sky_textures
 from api_schemas.textures.image import ImageSpec
+from worker import layouts
 from worker.errors import RenderError
 from worker.images.image import Image
 from worker.images.mending import mended
 from worker.images.pyramids import mip_chain
-from worker.layouts import filled
 from worker.rendering.cache import ByteCache
 from worker.rendering.calls import choice
 from worker.rendering.cube_textures import CubeTexture, faces_in
@@ -31,12 +32,13 @@ from worker.rendering.gl_context import GL
 from worker.rendering.programs import Program
 from worker.rendering.samplers import SamplerCache, Sampling
 from worker.rendering.shading_layout import SkyKind
-from worker.rendering.sky_harmonics import harmonics_in
+from worker.rendering.sky_harmonics import comes_from_below, harmonics_in
+from worker.rendering.sky_lamps import lamps_of
 from worker.rendering.texture_maker import TextureMaker
 from worker.rendering.textures import Texture
 
 CUBES_BYTES_MAX = 64 << 20
-_UNITS = {"sky_picture": 23, "sky_rough": 24, "sky_matt": 25}
+_UNITS = {"sky_picture": 23, "sky_rough": 24, "sky_matt": 25, "sky_lamps": 23}
 """Below those of lights; a scene with an environment has room for that many maps less."""
 
 _SAMPLING = Sampling(wrap=("repeat", "clamp"), smooth=True, levels=True)
@@ -53,6 +55,8 @@ class Sky:
         rough: As rough mirrors see it, a level for each of SKY_ROUGHNESS.
         matt: Irradiance over pi.
         uniforms: What else the chunk wants to know.
+        from_below: Whether its light does, as in a picture that is stored upside down.
+        lamps: The same light as lamps, where surfaces add it up: directions over irradiances.
     """
 
     kind: SkyKind
@@ -60,14 +64,25 @@ class Sky:
     rough: CubeTexture
     matt: CubeTexture
     uniforms: Mapping[str, Any]
+    from_below: bool = False
+    lamps: Texture | None = None
+
+    def kind_for(self, technique: str) -> SkyKind:
+        """Return the chunk by which a surface reads it."""
+        return "lamps" if self.lamps is not None and _sums_sky(technique) else self.kind
 
     def bind(self, program: Program, samplers: SamplerCache) -> None:
         """Give the bound program the environment, as far as it wants it."""
         for name, value in self.uniforms.items():
-            program.set(name, value)
+            if name in program.uniforms:
+                program.set(name, value)
+        if self.lamps is not None and "sky_lamps" in program.uniforms:
+            program.set("sky_lamp_count", self.lamps.width)
         for name, unit in _UNITS.items():
-            program.set(name, unit)
             texture = getattr(self, name.removeprefix("sky_"))
+            if texture is None or name not in program.uniforms:
+                continue
+            program.set(name, unit)
             flat = isinstance(texture, Texture)
             GL.glActiveTexture(GL.GL_TEXTURE0 + unit)
             GL.glBindTexture(GL.GL_TEXTURE_2D if flat else GL.GL_TEXTURE_CUBE_MAP, texture.number)
@@ -80,6 +95,7 @@ class _Matt:
 
     cube: CubeTexture
     uniforms: Mapping[str, Any]
+    from_below: bool
 
 
 class Skies:
@@ -116,7 +132,11 @@ class Skies:
             assert textures.whole is not None
             picture = self._cube(textures.whole, maker.picture, sharp_levels)
         kind: SkyKind = "latlong" if isinstance(picture, Texture) else "cube"
-        return self._blurred(kind, picture, textures, uniforms, maker.picture)
+        sky = self._blurred(kind, picture, textures, uniforms, maker.picture)
+        if spec.gathered == "prefiltered":
+            return sky
+        name = f"lamps {spec.layout.model_dump_json()} {spec.texture.model_dump_json()}"
+        return replace(sky, lamps=self._pictures.get(name, lambda: _lamps(spec, maker)))
 
     def rendered_sky(
         self, picture: NDArray[np.float32], layout: CubeSpec | HemispheresSpec, maker: TextureMaker
@@ -139,7 +159,7 @@ class Skies:
         if isinstance(layout, CubeSpec):
             sharp = self._cubes.get(name, lambda: _uploaded(sharp_levels(light)))
         else:
-            sharp = self._pictures.get(name, lambda: _flat(filled(layout, light)))
+            sharp = self._pictures.get(name, lambda: _flat(layouts.filled(layout, light)))
         uniforms = {"sky_from_world": np.eye(3), "sky_intensity": 1.0}
         return self._blurred(layout.technique, sharp, sky_textures(spec), uniforms, made)
 
@@ -161,6 +181,7 @@ class Skies:
             self._cube(textures.rough, maker, _panels),
             matt.cube,
             {**uniforms, **matt.uniforms},
+            matt.from_below,
         )
 
     def trim(self) -> None:
@@ -215,7 +236,19 @@ def _matt(column: NDArray[np.float32], method: str) -> tuple[_Matt, int]:
     smooth = method == "harmonics"
     numbers = harmonics_in(column) if smooth else np.zeros((9, 3))
     cube, size = _uploaded([faces_in(column)])
-    return _Matt(cube, {"sky_matt_smooth": smooth, "sky_harmonics": numbers}), size
+    uniforms = {"sky_matt_smooth": smooth, "sky_harmonics": numbers}
+    return _Matt(cube, uniforms, comes_from_below(column)), size
+
+
+def _lamps(spec: Environment, maker: TextureMaker) -> tuple[Texture, int]:
+    pixels = maker.picture(spec.texture, "colour", spec.layout.proportion).pixels
+    table = np.stack(lamps_of(pixels, spec.layout)).astype(np.float32)
+    texture = Texture.upload([table], "colour")
+    return texture, texture.size_bytes
+
+
+def _sums_sky(technique: str) -> bool:
+    return cast("type[SurfaceSpec]", FAMILIES["surfaces"][technique]).sums_sky
 
 
 def _flat(pixels: NDArray[np.float32]) -> tuple[Texture, int]:

@@ -213,9 +213,14 @@ def warm(report: Report) -> None:
     names = techniques()
     for done, name in enumerate(names):
         report(done / len(names), name)
-        module = _module(name)
-        if hasattr(module, "warm"):
-            module.warm()
+        compile_kernels(name)
+
+
+def compile_kernels(technique: str) -> None:
+    """Compile the kernels of one technique, or load them from the cache."""
+    module = _module(technique)
+    if hasattr(module, "warm"):
+        module.warm()
 
 
 def _fill(

@@ -2,6 +2,7 @@ import jsonschema_rs
 import pytest
 
 from api_schemas.language import FAMILIES
+from api_schemas.requests import REQUESTS
 
 ALL = [(family, name) for family, members in FAMILIES.items() for name in members]
 
@@ -51,7 +52,8 @@ def test_examples_are_requests_that_use_the_technique(client):
 
     assert page["examples"]
     for body in page["examples"]:
-        assert '"perlin"' in str(body).replace("'", '"')
+        request = REQUESTS["texture" if "texture" in body else "render"].model_validate(body)
+        assert '"technique":"perlin"' in request.model_dump_json()
 
 
 @pytest.mark.parametrize("path", ["", "/textures", "/textures/perlin"])

@@ -13,7 +13,11 @@ vec3 light_all_around() {
 vec3 let_through(int light, SurfacePoint point);
 float seen_by_light(int light, SurfacePoint point);  // of that, what no shadow takes
 
-Light light_at(int index, SurfacePoint point) {
+// Lamps, and the directions of a sky that is added up; each program brings its own.
+int light_total();
+Light light_at(int index, SurfacePoint point);
+
+Light lamp_let_through(int index, SurfacePoint point) {
     Light light = lamp_at(index, point);
     light.irradiance *= let_through(index, point);
     return light;

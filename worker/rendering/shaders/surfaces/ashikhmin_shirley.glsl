@@ -38,7 +38,7 @@ vec4 shade(SurfacePoint point, Surface surface) {
     vec2 width = sqrt(2.0 / (exponent + 2.0));
     vec3 in_mirror = even + sky_in_streak(point, axes, width, true, reach);
     radiance += (gloss + (1.0 - gloss) * schlick(seen)) * in_mirror;
-    for (int i = 0; i < light_count; i++) {
+    for (int i = 0; i < light_total(); i++) {
         Light light = light_at(i, point);
         float facing = dot(point.normal, light.direction);
         if (facing <= 0.0) continue;

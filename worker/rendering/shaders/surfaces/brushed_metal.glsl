@@ -38,7 +38,7 @@ vec4 shade(SurfacePoint point, Surface surface) {
     vec3 radiance = surface.emission + matt * on_matt;
     radiance += surface.specular_color * exact_power(min(size, 1.0), own_exponent)
         * sky_in_mirror(seen_mirrored, reach, roughness_of(exponent));
-    for (int i = 0; i < light_count; i++) {
+    for (int i = 0; i < light_total(); i++) {
         Light light = light_at(i, point);
         float facing = dot(point.normal, light.direction);
         if (facing <= 0.0) continue;

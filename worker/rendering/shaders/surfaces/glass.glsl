@@ -39,7 +39,7 @@ vec4 shade(SurfacePoint point, Surface surface) {
     vec3 behind = even + sky_in_mirror(bent, bent_reach, roughness);
     vec3 radiance = part * in_mirror + (1.0 - part) * tint * behind;
     float alpha = alpha_of(roughness);
-    for (int i = 0; i < light_count; i++) {
+    for (int i = 0; i < light_total(); i++) {
         Light light = light_at(i, point);
         vec3 half_way = light.direction + point.view;
         half_way *= inversesqrt(max(dot(half_way, half_way), 1e-20));

@@ -108,7 +108,7 @@ vec4 shade(SurfacePoint point, Surface surface) {
     radiance = surface.emission + surface.occlusion * radiance;
     float coat_reflects = reflectance(coat_seen, surface.clearcoat_roughness).b;
     vec3 on_coat = surface.occlusion * coat_reflects * in_coat;
-    for (int i = 0; i < light_count; i++) {
+    for (int i = 0; i < light_total(); i++) {
         Light light = light_at(i, point);
         vec3 half_way = light.direction + point.view;
         half_way *= inversesqrt(max(dot(half_way, half_way), 1e-20));

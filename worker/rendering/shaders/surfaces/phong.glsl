@@ -42,7 +42,7 @@ vec4 shade(SurfacePoint point, Surface surface) {
     precise vec3 radiance = surface.emission + ambient * on_matt;
     radiance += surface.specular_weight * surface.specular_color
         * sky_in_mirror(seen_mirrored, reach, roughness_of(exponent));
-    for (int i = 0; i < light_count; i++) {
+    for (int i = 0; i < light_total(); i++) {
         Light light = light_at(i, point);
         float facing = dot(point.normal, light.direction);
         if (facing <= 0.0) continue;

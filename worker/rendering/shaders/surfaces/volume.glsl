@@ -50,7 +50,7 @@ vec3 light_of_all_directions() {
 
 vec3 light_of_lamps(SurfacePoint point, Surface surface, mat3 object_from_world) {
     vec3 sum = vec3(0.0);
-    for (int i = 0; i < light_count; i++) {
+    for (int i = 0; i < light_total(); i++) {
         Light light = light_at(i, point);
         vec3 way = object_from_world * light.direction;
         float far = max(through_box(point.object_position, way).y, 0.0);

@@ -31,7 +31,7 @@ vec4 shade(SurfacePoint point, Surface surface) {
     vec3 even = light_all_around();
     vec3 radiance = surface.emission + matt * (even + sky_on_matt(point.normal));
     radiance += gloss * (even + sky_in_streak(point, axes, slope, true, reach));
-    for (int i = 0; i < light_count; i++) {
+    for (int i = 0; i < light_total(); i++) {
         Light light = light_at(i, point);
         float facing = dot(point.normal, light.direction);
         if (facing <= 0.0) continue;

@@ -1,0 +1,2 @@
+#include "lib/sky_lamps.glsl"
+#include "skies/none.glsl"
