@@ -88,7 +88,13 @@ def _vote(
     height, width = fixed.shape
     channels = source.shape[2]
     across, down = column_patches.shape[1], row_patches.shape[1]
+    slots = 2
+    while slots < 2 * across * down:
+        slots *= 2
     for y in prange(height):
+        # A hash table of the proposals of one pixel: of the number it has, and of whose it is
+        known_as = np.empty(slots, np.int32)
+        known_by = np.full(slots, -1, np.int32)
         mean = np.empty(channels, np.float32)
         vs = np.empty(across * down, np.int32)
         us = np.empty(across * down, np.int32)
@@ -107,12 +113,16 @@ def _vote(
                         break
                     v = rows[patch_y, patch_x] + row_inner[y, j]
                     u = columns[patch_y, patch_x] + column_inner[x, i]
-                    known = 0
-                    while known < count and (vs[known] != v or us[known] != u):
-                        known += 1
-                    if known == count:
-                        vs[known], us[known], shares[known] = v, u, np.float32(0)
+                    slot = (v * 73856093 ^ u * 19349663) & (slots - 1)
+                    while known_by[slot] == x and (
+                        vs[known_as[slot]] != v or us[known_as[slot]] != u
+                    ):
+                        slot = (slot + 1) & (slots - 1)
+                    if known_by[slot] != x:
+                        known_by[slot], known_as[slot] = x, count
+                        vs[count], us[count], shares[count] = v, u, np.float32(0)
                         count += 1
+                    known = known_as[slot]
                     shares[known] += weights[patch_y, patch_x]
             if count == 0:
                 continue
