@@ -1,11 +1,12 @@
 """What a mesh is to an estimate: so many triangles round a middle, whoever made them."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from api_schemas.assets import AssetFacts, ImageFacts, ModelFacts
 from api_schemas.cost import Cost
+from api_schemas.families import SurfaceSpec
 from api_schemas.geometry import Vector3
 from api_schemas.meshes import Mesh
 from api_schemas.model_mesh import ModelMesh
@@ -15,6 +16,8 @@ SECONDS_PER_TRIANGLE = 4e-7
 BYTES_PER_TRIANGLE = 200
 SECONDS_PER_DISPLACED_TRIANGLE = 8e-6
 BYTES_PER_DISPLACED_TRIANGLE = 900
+SECONDS_PER_FRAMED_TRIANGLE = 6e-6
+BYTES_PER_FRAMED_TRIANGLE = 750
 SECONDS_PER_READ_VERTEX = 1e-6
 BYTES_PER_READ_VERTEX = 250
 SECONDS_PER_TEXEL = 1e-7
@@ -100,6 +103,18 @@ def body(mesh: Mesh, facts: Mapping[str, AssetFacts]) -> Body | None:
         ),
         reach=math.dist(low, high) / 2,
     )
+
+
+def framed(found: Body, surfaces: Sequence[SurfaceSpec]) -> Cost:
+    """Return what it takes to know where u and v grow on a mesh, and where nothing says so."""
+    wanted = any(
+        surface.needs_tangents
+        or surface.bump is not None
+        or (surface.normal is not None and surface.normal.space == "tangent")
+        for surface in surfaces
+    )
+    pieces = found.pieces if wanted else 0
+    return Cost(pieces * SECONDS_PER_FRAMED_TRIANGLE, float(pieces * BYTES_PER_FRAMED_TRIANGLE))
 
 
 def displaced(found: Body, spec: Displacement | None) -> Body:

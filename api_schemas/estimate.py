@@ -17,6 +17,7 @@ from api_schemas.bodies import (
     Body,
     body,
     displaced,
+    framed,
 )
 from api_schemas.by_example import FromExemplarSpec
 from api_schemas.camera import Camera, FramedCamera, ModelCamera, PosedCamera
@@ -166,6 +167,7 @@ def _drawing(request: RenderRequest, facts: Mapping[str, AssetFacts]) -> Cost:
             cost += Cost(MAPS_OF_A_MATERIAL * SECONDS_TO_COMPILE_A_MAP * found.pictures)
         shown = node.surface_map or node.surface or node.mesh
         surfaces = [part for _, part in parts(shown) if isinstance(part, SurfaceSpec)]
+        cost += framed(found, surfaces)
         maps = [_maps(surface) for surface in surfaces]
         among: list[MAPS] = [] if node.surface_map is None else [node.surface_map]
         for worn in [*maps, among, _maps(node.displacement)]:

@@ -42,7 +42,7 @@ class SphereSpec(TextureSpec):
 
     def cost(self, pixels: int) -> Cost:
         """Every direction is looked up a few times, and the source is read."""
-        return Cost(seconds=1.0 + pixels * 2e-6, bytes=pixels * 64.0 + 1e8)
+        return Cost(seconds=0.3 + pixels * 1.5e-6, bytes=pixels * 64.0 + 1e8)
 
 
 class SphereTextureSpec(SphereSpec):

@@ -50,6 +50,6 @@ class IrradianceSpec(SphereSpec):
     def cost(self, pixels: int) -> Cost:
         """The sum goes over pieces of the sky for every pixel."""
         return Cost(
-            seconds=1.0 + pixels * (3e-5 if self.method == "sum" else 5e-7),
+            seconds=0.3 + pixels * (1.5e-5 if self.method == "sum" else 5e-7),
             bytes=pixels * 200.0 + 1e8,
         )

@@ -1,5 +1,6 @@
 """What a rough mirror sees of all directions."""
 
+import math
 from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
@@ -10,6 +11,8 @@ from api_schemas.sphere_textures import SphereTextureSpec
 Roughness = Annotated[float, Field(ge=0, le=1)]
 Exponent = Annotated[float, Field(ge=0, le=1e6)]
 PANELS_MAX = 12
+_TEXELS_IN_A_LOBE = 6.0
+_SECONDS_PER_TEXEL = 2e-8
 
 
 class PrefilteredEnvironmentSpec(SphereTextureSpec):
@@ -57,6 +60,18 @@ class PrefilteredEnvironmentSpec(SphereTextureSpec):
         return (width, height if panels == 1 else 2 * height)
 
     def cost(self, pixels: int) -> Cost:
-        """A few hundred pieces of the sky for every pixel, or all texels of a cube."""
+        """A thousand pieces of the sky for every pixel, or all texels of a cube."""
         exact = self.method == "sum" or self.show == "error"
-        return Cost(seconds=1.5 + pixels * (1e-3 if exact else 5e-5), bytes=pixels * 128.0 + 2e8)
+        seconds = self._texels * _SECONDS_PER_TEXEL if exact else 1.5e-5
+        return Cost(seconds=0.5 + pixels * seconds, bytes=pixels * 128.0 + 2e8)
+
+    @property
+    def _texels(self) -> int:
+        """Of the cube that is as fine as the narrowest lobe needs."""
+        widths = [1 / math.sqrt(exponent + 1) for exponent in self.exponents]
+        narrowest = min(
+            widths or [roughness**2 for roughness in self.roughness if roughness > 0.01] or [1.0]
+        )
+        useful = min(max(_TEXELS_IN_A_LOBE * math.pi / 2 / narrowest, 64), 512)
+        side = 1 << math.ceil(math.log2(useful))
+        return 6 * side * side

@@ -12,8 +12,12 @@ from api_schemas.cost import Cost
 
 
 class TextureOptimizationSpec(GuidedSpec):
-    """Grows more of any texture: the one to begin with, quick, tileable, and seldom the worst."""
+    """Grows more of any texture: the one to begin with, quick, tileable, and seldom the worst.
 
+    No line of pixels longer than half of the exemplar is copied, where it has room for others.
+    """
+
+    revision: ClassVar[int] = 2
     source: ClassVar[str] = (
         "Kwatra, Essa, Bobick and Kwatra, 2005; Han et al., 2006; Kaspar et al., 2015"
     )

@@ -2,6 +2,7 @@
 
 Gray and Scott's chemicals in float32, eight steps in one pass over the dish by all threads, beside
 one step a pass, and beside numpy, which rolls whole arrays. The others are float64 by one thread.
+Writing alone: how often a second as many bytes as a step's new cells take can be written to memory.
 """
 
 from collections.abc import Callable
@@ -14,6 +15,7 @@ import numpy as np
 from api_schemas.textures.gray_scott import GrayScottSpec
 from api_schemas.textures.schnakenberg import SchnakenbergSpec
 from api_schemas.textures.turing import TuringSpec
+from tests.benchmarks.bench_perlin import fill
 from worker.stages import silent
 from worker.synthesis import gray_scott, schnakenberg, turing
 from worker.synthesis._gray_scott_steps import STEPS_AT_ONCE, advance
@@ -30,9 +32,17 @@ def measure() -> list[dict[str, Any]]:
         rates = gray_scott.rates_of(spec, {})
         threads = numba.get_num_threads()
         work = f"Gray-Scott {side}², "
+        reach = ", reach: 1800" if side == 2048 else ""
         seconds = best(lambda spec=spec, u=u, v=v, r=rates: gray_scott.run(spec, u, v, r))
+        writing = best(lambda side=side: fill(np.empty((2 * side, side), np.float32)))
         rows.append(
-            row(f"{work}{STEPS_AT_ONCE} steps a pass, {threads} thread(s)", side, steps, seconds)
+            row(
+                f"{work}{STEPS_AT_ONCE} steps a pass, {threads} thread(s){reach}",
+                side,
+                steps,
+                seconds,
+                f", {writing * steps / seconds:.0%} of writing alone",
+            )
         )
         cells = np.pad(np.stack([u, v], axis=1), ((1, 1), (0, 0), (1, 1)), mode="wrap")
         after = cells.copy()
@@ -68,11 +78,11 @@ def best(work: Callable[[], object]) -> float:
     return min(times[1:])
 
 
-def row(work: str, side: int, steps: int, seconds: float) -> dict[str, Any]:
+def row(work: str, side: int, steps: int, seconds: float, note: str = "") -> dict[str, Any]:
     """One row of the table: millions of cells and steps a second."""
     return {
         "work": work,
         "figure": round(side * side * steps / seconds / 1e6),
         "unit": "Mcell/s",
-        "note": f"{1000 * seconds / steps:.3f} ms a step",
+        "note": f"{1000 * seconds / steps:.3f} ms a step{note}",
     }

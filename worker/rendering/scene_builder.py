@@ -29,6 +29,10 @@ from worker.rendering.texture_maker import TextureMaker
 from worker.rendering.texture_store import TextureStore
 
 TEXTURE_BYTES_MAX = 128 << 20
+_UPSIDE_DOWN = (
+    "the environment's light comes from below: its picture may be stored upside down, or its "
+    "layout be another one"
+)
 LARGEST_LIGHT = 5e36
 """Of a picture, as in lib/picture.glsl."""
 
@@ -151,7 +155,13 @@ class SceneBuilder:
             texels=sum(texture.width * texture.height for texture in textures.values()),
             report=frames_report(placed, kept),
             warnings=tuple(
-                dict.fromkeys(itertools.chain(*(item.model.warnings for item in models), left_out))
+                dict.fromkeys(
+                    itertools.chain(
+                        *(item.model.warnings for item in models),
+                        left_out,
+                        [_UPSIDE_DOWN] if sky is not None and sky.from_below else [],
+                    )
+                )
             ),
         )
 

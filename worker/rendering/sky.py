@@ -20,11 +20,11 @@ from api_schemas.layouts.hemispheres import HemispheresSpec
 from api_schemas.layouts.latlong import LatlongSpec
 from api_schemas.sky import SKY_ROUGHNESS, SkyTextures, sky_textures
 from api_schemas.textures.image import ImageSpec
+from worker import layouts
 from worker.errors import RenderError
 from worker.images.image import Image
 from worker.images.mending import mended
 from worker.images.pyramids import mip_chain
-from worker.layouts import filled
 from worker.rendering.cache import ByteCache
 from worker.rendering.calls import choice
 from worker.rendering.cube_textures import CubeTexture, faces_in
@@ -32,7 +32,7 @@ from worker.rendering.gl_context import GL
 from worker.rendering.programs import Program
 from worker.rendering.samplers import SamplerCache, Sampling
 from worker.rendering.shading_layout import SkyKind
-from worker.rendering.sky_harmonics import harmonics_in
+from worker.rendering.sky_harmonics import comes_from_below, harmonics_in
 from worker.rendering.sky_lamps import lamps_of
 from worker.rendering.texture_maker import TextureMaker
 from worker.rendering.textures import Texture
@@ -55,6 +55,7 @@ class Sky:
         rough: As rough mirrors see it, a level for each of SKY_ROUGHNESS.
         matt: Irradiance over pi.
         uniforms: What else the chunk wants to know.
+        from_below: Whether its light does, as in a picture that is stored upside down.
         lamps: The same light as lamps, where surfaces add it up: directions over irradiances.
     """
 
@@ -63,6 +64,7 @@ class Sky:
     rough: CubeTexture
     matt: CubeTexture
     uniforms: Mapping[str, Any]
+    from_below: bool = False
     lamps: Texture | None = None
 
     def kind_for(self, technique: str) -> SkyKind:
@@ -93,6 +95,7 @@ class _Matt:
 
     cube: CubeTexture
     uniforms: Mapping[str, Any]
+    from_below: bool
 
 
 class Skies:
@@ -156,7 +159,7 @@ class Skies:
         if isinstance(layout, CubeSpec):
             sharp = self._cubes.get(name, lambda: _uploaded(sharp_levels(light)))
         else:
-            sharp = self._pictures.get(name, lambda: _flat(filled(layout, light)))
+            sharp = self._pictures.get(name, lambda: _flat(layouts.filled(layout, light)))
         uniforms = {"sky_from_world": np.eye(3), "sky_intensity": 1.0}
         return self._blurred(layout.technique, sharp, sky_textures(spec), uniforms, made)
 
@@ -178,6 +181,7 @@ class Skies:
             self._cube(textures.rough, maker, _panels),
             matt.cube,
             {**uniforms, **matt.uniforms},
+            matt.from_below,
         )
 
     def trim(self) -> None:
@@ -232,7 +236,8 @@ def _matt(column: NDArray[np.float32], method: str) -> tuple[_Matt, int]:
     smooth = method == "harmonics"
     numbers = harmonics_in(column) if smooth else np.zeros((9, 3))
     cube, size = _uploaded([faces_in(column)])
-    return _Matt(cube, {"sky_matt_smooth": smooth, "sky_harmonics": numbers}), size
+    uniforms = {"sky_matt_smooth": smooth, "sky_harmonics": numbers}
+    return _Matt(cube, uniforms, comes_from_below(column)), size
 
 
 def _lamps(spec: Environment, maker: TextureMaker) -> tuple[Texture, int]:

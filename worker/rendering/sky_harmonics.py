@@ -1,9 +1,11 @@
 """Light on matt surfaces as nine numbers, found in a picture of it that nine numbers made."""
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
-from api_schemas.sky import SKY_CUBE
+from api_schemas.sky import LIGHT_FROM_BELOW, SKY_CUBE
 from worker import layouts
 
 _TERMS = 9
@@ -33,3 +35,15 @@ def harmonics_in(column: NDArray[np.float32]) -> NDArray[np.float64]:
         if np.count_nonzero(lit) >= _TERMS:
             found[:, channel] = np.linalg.lstsq(rows[lit], light[lit, channel], rcond=None)[0]
     return found
+
+
+def comes_from_below(column: NDArray[np.float32]) -> bool:
+    """Tell by irradiance (6 side, side, 3) whether light comes from below more than it ever does.
+
+    Its share along y over the even one is 2/3 of that of the light itself, L1-1 / L00.
+    """
+    height, width = column.shape[:2]
+    towards, _ = layouts.direction(SKY_CUBE, layouts.texel_middles(width, height))
+    light = column.sum(axis=2, dtype=np.float64) * layouts.solid_angles(SKY_CUBE, width, height)
+    along = float(light.ravel() @ towards[:, 1])
+    return 1.5 * math.sqrt(3) * along < LIGHT_FROM_BELOW * float(light.sum())

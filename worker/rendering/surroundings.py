@@ -16,7 +16,6 @@ from api_schemas.layouts.hemispheres import HemispheresSpec
 from api_schemas.sky import SKY_CUBE, SKY_LAYOUTS
 from worker import layouts
 from worker.geometry.transforms import Matrix, perspective
-from worker.images.sampling import sample
 from worker.rendering.lighting import lighting
 from worker.rendering.pyrender_adapter import FloatRenderer
 from worker.rendering.pyrender_scene import Drawable, FlatScene, View
@@ -113,9 +112,15 @@ def _discs(faces: NDArray[np.float32], layout: HemispheresSpec) -> NDArray[np.fl
     # Along a column nothing lies left or right of a face, along a row nothing above or below.
     row = SKY_CUBE.model_copy(update={"arrangement": "row"})
     u, v = layouts.place(SKY_CUBE, towards)[:, 0], layouts.place(row, towards)[:, 1]
-    places = np.stack([u, v, (face + 0.5) / 6], axis=1)
-    channels = [sample([faces[..., c]], places, ["clamp"] * 3) for c in range(3)]
-    return np.stack(channels, axis=-1).reshape(side, 2 * side, 3).astype(np.float32)
+    last = faces.shape[1] - 1
+    across, down = (np.clip(at * (last + 1) - 0.5, 0, last) for at in (u, 1 - v))
+    left, top = across.astype(np.int64), down.astype(np.int64)
+    right, below = np.minimum(left + 1, last), np.minimum(top + 1, last)
+    shares = (across - left)[:, np.newaxis], (down - top)[:, np.newaxis]
+    upper = faces[face, top, left] * (1 - shares[0]) + faces[face, top, right] * shares[0]
+    lower = faces[face, below, left] * (1 - shares[0]) + faces[face, below, right] * shares[0]
+    blended: NDArray[np.float32] = (upper * (1 - shares[1]) + lower * shares[1]).astype(np.float32)
+    return blended.reshape(side, 2 * side, 3)
 
 
 def _pose(axes: NDArray[np.float64], middle: NDArray[np.float64]) -> Matrix:

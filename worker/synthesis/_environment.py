@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from api_schemas.sky import LIGHT_FROM_BELOW
 from worker.errors import RenderError
 from worker.images.mending import mended
 from worker.synthesis._harmonics import NAMES, project
@@ -18,10 +19,6 @@ if TYPE_CHECKING:
     from worker.images.image import Image
 
     Floats = NDArray[np.float64]
-
-_FROM_BELOW = -0.1
-"""L1-1 / L00 below which a picture is likely to stand on its head: outdoors and indoors light comes
-from above, and of ten probes in use the ratio is 0.2 to 1.3."""
 
 
 def taken(image: Image, layout: LayoutSpec, broken: str) -> tuple[Sphere, dict[str, Any]]:
@@ -58,5 +55,5 @@ def told(coefficients: Floats) -> dict[str, Any]:
     return {
         "coefficients": dict(zip(NAMES, coefficients.tolist(), strict=True)),
         "light_from_above": ratio,
-        "upside_down": ratio < _FROM_BELOW,
+        "upside_down": ratio < LIGHT_FROM_BELOW,
     }

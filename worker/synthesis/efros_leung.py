@@ -20,6 +20,7 @@ from worker.images.image import Image
 from worker.numba_kernel import kernel
 from worker.stages import silent
 from worker.synthesis._counter_hash import hashes, uniforms
+from worker.synthesis.by_example.clusters import Clusters, visit_clusters
 from worker.synthesis.by_example.exemplar import Exemplar
 from worker.synthesis.by_example.hashing import below, scrambled
 from worker.synthesis.by_example.result import finished
@@ -27,7 +28,7 @@ from worker.synthesis.by_example.windows import middles
 from worker.synthesis.by_example.wishes import Wishes
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from numpy.typing import NDArray
 
@@ -72,12 +73,17 @@ def synthesize(
 
 
 def warm() -> None:
-    """Compile the kernel."""
+    """Compile the kernels."""
     picture = Image(np.linspace(0, 1, 147, dtype=np.float32).reshape(7, 7, 3), "colour")
-    spec = EfrosLeungSpec(
-        technique="efros_leung", exemplar=PerlinSpec(technique="perlin"), size=[5, 5], window=3
-    )
-    synthesize(spec, (5, 5), {"exemplar": picture}, silent)
+    for clusters in (0, 2):
+        spec = EfrosLeungSpec(
+            technique="efros_leung",
+            exemplar=PerlinSpec(technique="perlin"),
+            size=[5, 5],
+            window=3,
+            clusters=clusters,
+        )
+        synthesize(spec, (5, 5), {"exemplar": picture}, silent)
 
 
 def _fitting(usable: Mask, reach: int) -> tuple[int, Mask]:
@@ -116,8 +122,7 @@ def _grow(
     report: Report,
 ) -> None:
     """Fill all that is not known, from the outside of what is."""
-    planes = np.ascontiguousarray(np.moveaxis(exemplar.features, -1, 0))
-    weights = _weights(reach)
+    visit = _visitor(place, known, target, exemplar, allowed, reach, spec)
     mode = "wrap" if spec.tileable else "constant"
     ring = np.ones((3, 3), bool)
     chances = uniforms(spec.seed, 1, known.size).reshape(known.shape)
@@ -131,12 +136,40 @@ def _grow(
             (chances.flat[pixels], -np.rint(counts.flat[pixels] * (2 * reach + 1) ** 2))
         )
         key = hashes(spec.seed, 2 + turn, 1)[0]
-        placed = _visit(
-            pixels[order], place, known, target, planes, allowed, weights, bound, spec.tileable, key
-        )
         turn += 1
-        if not placed:
+        if not visit(pixels[order], bound, key):
             bound *= 1.1
+
+
+def _visitor(
+    place: Integers,
+    known: Mask,
+    target: Bytes,
+    exemplar: Exemplar,
+    allowed: Mask,
+    reach: int,
+    spec: EfrosLeungSpec,
+) -> Callable[[NDArray[np.int64], float, np.uint64], int]:
+    """Return what chooses pixels within a bound, by a random key; it tells how many it could."""
+    weights = _weights(reach)
+    if spec.clusters:
+        features = exemplar.features
+        clusters = Clusters.of(features, allowed, reach, spec.clusters, spec.seed)
+
+        def visit(pixels: NDArray[np.int64], bound: float, key: np.uint64) -> int:
+            return visit_clusters(
+                pixels, place, known, target, features, clusters, weights, bound, spec.tileable, key
+            )
+
+        return visit
+    planes = np.ascontiguousarray(np.moveaxis(exemplar.features, -1, 0))
+
+    def visit_all(pixels: NDArray[np.int64], bound: float, key: np.uint64) -> int:
+        return _visit(
+            pixels, place, known, target, planes, allowed, weights, bound, spec.tileable, key
+        )
+
+    return visit_all
 
 
 def _weights(reach: int) -> Integers:

@@ -17,9 +17,12 @@ import numpy as np
 
 from api_schemas.textures.gabor import GaborSpec
 from worker.images.image import Image
-from worker.numba_kernel import kernel, parallel_kernel, prange
+from worker.images.volume import Volume
+from worker.numba_kernel import parallel_kernel, prange
 from worker.stages import silent
 from worker.synthesis._counter_hash import uniforms
+from worker.synthesis._gabor_rows import CUT, add, tabulate
+from worker.synthesis._gabor_solid import fill_solid_kernels, solid_energy, solid_impulses
 from worker.synthesis._perlin_octaves import visibility
 
 if TYPE_CHECKING:
@@ -31,8 +34,6 @@ if TYPE_CHECKING:
 
     Numbers = NDArray[np.float64]
 
-CUT = float(np.sqrt(np.log(1000) / np.pi))
-"""Radius of a kernel times its bandwidth."""
 _BAND_ROWS = 32
 
 
@@ -60,6 +61,23 @@ def synthesize(
     return Image((values + bias).astype(np.float32)[..., np.newaxis], spec.meaning)
 
 
+def synthesize_volume(
+    spec: GaborSpec, size: tuple[int, int, int], inputs: Mapping[str, Volume], report: Report
+) -> Volume:
+    """Add kernels of space at the voxel centres of (width, height, depth)."""
+    width, height, depth = size
+    found = solid_impulses(spec)
+    scale, bias = (0.125, 0.5) if spec.range == "unit" else (0.25, 0.0)
+    visible = visibility(min(size) / (spec.frequency + spec.bandwidth))
+    values = np.zeros((depth, height, width))
+    if visible > 0:
+        variance = len(found.weights) * solid_energy(spec.frequency, spec.bandwidth)
+        weights = found.weights * (visible * scale / np.sqrt(variance))
+        kernels = found._replace(weights=weights)
+        fill_solid_kernels(values, kernels, spec.frequency, spec.bandwidth)
+    return Volume((values + bias).astype(np.float32)[..., np.newaxis], spec.meaning)
+
+
 def impulses_of(spec: GaborSpec) -> Impulses:
     """Strew the kernels of a tile."""
     count = max(1, round(spec.impulses * spec.bandwidth**2 / (np.pi * CUT * CUT)))
@@ -82,8 +100,10 @@ def energy(frequency: float, bandwidth: float) -> float:
 
 
 def warm() -> None:
-    """Compile the kernel."""
-    synthesize(GaborSpec(technique="gabor", frequency=1, bandwidth=1), (16, 16), {}, silent)
+    """Compile the kernels."""
+    spec = GaborSpec(technique="gabor", frequency=1, bandwidth=1, impulses=1)
+    synthesize(spec, (16, 16), {}, silent)
+    synthesize_volume(spec, (8, 8, 8), {}, silent)
 
 
 @parallel_kernel
@@ -107,7 +127,7 @@ def _fill_kernels(values: Numbers, impulses: Impulses, frequency: float, bandwid
                 v = 1 - (row + 0.5) / height - impulses.v[n]
                 for turn in range(int(np.ceil(-reach - v)), int(np.floor(reach - v)) + 1):
                     if not made:
-                        _tabulate(
+                        tabulate(
                             cosines, sines, first, last, impulses.u[n], width, along, bandwidth
                         )
                         made = True
@@ -115,39 +135,4 @@ def _fill_kernels(values: Numbers, impulses: Impulses, frequency: float, bandwid
                     under = impulses.weights[n] * np.exp(-np.pi * (bandwidth * y) ** 2)
                     angle = 2 * np.pi * across * y
                     a, b = under * np.cos(angle), under * np.sin(angle)
-                    _add(values[row], first, last - first + 1, a, b, cosines, sines)
-
-
-@kernel
-def _tabulate(
-    cosines: Numbers,
-    sines: Numbers,
-    first: int,
-    last: int,
-    middle: float,
-    width: int,
-    along: float,
-    bandwidth: float,
-) -> None:
-    for column in range(first, last + 1):
-        x = (column + 0.5) / width - middle
-        under = np.exp(-np.pi * (bandwidth * x) ** 2)
-        cosines[column - first] = under * np.cos(2 * np.pi * along * x)
-        sines[column - first] = under * np.sin(2 * np.pi * along * x)
-
-
-@kernel
-def _add(
-    row: Numbers, first: int, count: int, a: float, b: float, cosines: Numbers, sines: Numbers
-) -> None:
-    """Add a cos - b sin to a row from a column on, and again from its start beyond its end."""
-    width = len(row)
-    done = 0
-    while done < count:
-        start = (first + done) % width
-        length = min(count - done, width - start)
-        piece = row[start : start + length]
-        cosine, sine = cosines[done : done + length], sines[done : done + length]
-        for i in range(length):
-            piece[i] += a * cosine[i] - b * sine[i]
-        done += length
+                    add(values[row], first, last - first + 1, a, b, cosines, sines)

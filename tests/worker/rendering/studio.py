@@ -33,6 +33,7 @@ class Studio:
         self.models: dict[str, Model] = {}
         self.facts: dict[str, Any] = {}
         self.found: dict[str, Any] = {}
+        self.warnings: tuple[str, ...] = ()
         self.reports: list[tuple[float, str]] = []
 
     def texture(self, array: Any) -> dict[str, Any]:
@@ -110,6 +111,7 @@ class Studio:
         bands = list(rendering.bands)
         self.facts = rendering.timings | rendering.counts
         self.found = rendering.report
+        self.warnings = rendering.warnings
         return {name: np.concatenate([band[name].pixels for band in bands]) for name in bands[0]}
 
     def poster(

@@ -62,6 +62,30 @@ def test_a17_the_dot_product_of_brushed_metal(studio: Studio, along, across, pro
     )
 
 
+@pytest.mark.parametrize(("along", "across"), [(0.0, 0.0), (-1.0, 0.0), (-1e30, -1e-30)])
+def test_a17_a_singular_matrix_keeps_what_is_upright(studio: Studio, along, across):
+    # V diag(0, 0, 1) V^T = n n^T; below zero is cut off
+    surface = {
+        "technique": "brushed_metal",
+        **BLACK,
+        "specular_color": [1.0, 1.0, 1.0],
+        "exponent": 1.0,
+        "along": along,
+        "across": across,
+    }
+    towards = np.array([0.0, 0.0, 1.0])
+    product = (NORMAL @ VIEW) * (NORMAL @ towards)
+    np.testing.assert_allclose(seen(studio, surface, mirrored=towards), product, atol=1e-6)
+
+
+def test_a_singular_matrix_seen_along_the_surface_is_dark_and_a_number(studio: Studio):
+    surface = {"technique": "brushed_metal", **BLACK, "along": 0.0, "across": 0.0, "exponent": 0.5}
+    slant = NORMAL * 1e-3 + ALONG
+    drawn = seen(studio, surface, light=NORMAL, view=slant / np.linalg.norm(slant))
+    assert np.isfinite(drawn).all()
+    assert (drawn < 0.1).all()
+
+
 def test_a17_turned_scratches_swap_the_axes(studio: Studio):
     surface = {
         "technique": "brushed_metal",

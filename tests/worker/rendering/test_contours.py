@@ -106,3 +106,17 @@ def test_toon_reads_tone_and_detail(studio: Studio, detail):
     # Half a texel at either end cannot be read between
     np.testing.assert_allclose(tone[inside], np.clip(facing, 0.002, 0.998)[inside], atol=6e-4)
     np.testing.assert_allclose(row[inside], np.clip(expected, 0.002, 0.998)[inside], atol=2e-3)
+
+
+@pytest.mark.parametrize("filter_name", ["nearest", "bilinear", "trilinear", "anisotropic", "ewa"])
+@pytest.mark.parametrize("shape", [(1, 1), (1, 2)])
+def test_a_picture_of_one_row_may_be_as_short_as_one_texel(studio: Studio, shape, filter_name):
+    # It has one value everywhere; there is nothing to divide by the room between texels
+    color = {
+        "texture": studio.texture(np.full((*shape, 3), 0.4)),
+        "coordinates": {"technique": "facing"},
+        "filter": filter_name,
+        "wrap": ["clamp", "clamp"],
+    }
+    drawn = studio.poster({"technique": "unlit", "color": color}, (8, 8))
+    np.testing.assert_allclose(drawn[..., :3], 0.4, rtol=1e-6)

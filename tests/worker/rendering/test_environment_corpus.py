@@ -41,9 +41,28 @@ def uffizi_table(corpus: Path) -> np.ndarray:
     return np.array([rows[name] for name in NAMES]) * np.array(flipped)[:, None] / TABLE_SCALE
 
 
-@pytest.mark.parametrize(
+PROBES = pytest.mark.parametrize(
     "name", ["probulator/uffizi.hdr", "probulator/grace.hdr", "oiio/uffizi_latlong_env-128.exr"]
 )
+
+
+@pytest.mark.gl
+@PROBES
+def test_show_2_a_scene_is_warned_of_a_probe_that_is_upside_down(
+    studio: Studio, corpus: Path, name: str
+) -> None:
+    pixels = picture(corpus / "2_envmaps" / name).pixels[..., :3]
+    warned = []
+
+    for image in (pixels, pixels[::-1], pixels[::-1]):  # the last time it is found in a cache
+        environment = {"texture": studio.texture(np.ascontiguousarray(image))}
+        ball(studio, environment, CHALK, 4)
+        warned.append([warning for warning in studio.warnings if "upside down" in warning])
+
+    assert [len(found) for found in warned] == [0, 1, 1]
+
+
+@PROBES
 def test_t36_probes_stand_upright_and_are_told_when_they_do_not(corpus: Path, name: str) -> None:
     upright = picture(corpus / "2_envmaps" / name)
     turned = Image(upright.pixels[::-1].copy(), "colour")

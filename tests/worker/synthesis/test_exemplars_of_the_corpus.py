@@ -1,9 +1,12 @@
 """Pictures of the corpus grown, guided and mended.
 
 The distances are those of 9 x 9 patches at half the size: to the nearest of the exemplar's, and
-back. A prototype of the method and the best open program were measured in this way on the same
-exemplars. Another seed changes them by up to a tenth (measured on three seeds), so they may be a
-tenth above the prototype's.
+back. A prototype of the method was measured in the very same way on the same exemplars (its own
+measure smooths less when it halves, and gives larger figures); the best open program was measured
+by the prototype's. On water the prototype copies lines of 0.72 of the exemplar, which is what makes
+it so near: with half at most, a fifth more is allowed there.
+
+Lines are looked at on these, on the smallest exemplar of the corpus and on the one with a hole.
 """
 
 import numpy as np
@@ -11,33 +14,55 @@ import pytest
 
 from tests.growing import grow, sources
 from worker.images import image_io
+from worker.synthesis.by_example.copies import continued, copied_so_far
 
 pytestmark = pytest.mark.corpus
-SEEDS_DIFFER = 1.1
 
 
-def picture(corpus, name, side=None):
-    image = image_io.read(corpus / "3_textures" / name, "srgb", "colour", alpha=False)
-    return image.pixels[:side, :side, :3]
+def picture(corpus, name, side=None, alpha=False):
+    image = image_io.read(corpus / "3_textures" / name, "srgb", "colour", alpha=alpha)
+    return image.pixels[:side, :side]
+
+
+def longest_lines(made, exemplar):
+    """The longest line that is copied down and across, as a share of the exemplar's sides."""
+    across, down = continued(np.stack(sources(made, exemplar), axis=-1))
+    height, width = exemplar.shape[:2]
+    return copied_so_far(down.T).max() / height, copied_so_far(across).max() / width
 
 
 @pytest.mark.parametrize(
-    ("name", "side", "prototype", "open_program"),
+    ("name", "side", "prototype", "open_program", "more"),
     [
-        ("skimage/brick.png", 256, (0.012, 0.008), (0.017, 0.009)),
-        ("embark/1.jpg", None, (0.014, 0.016), (0.019, 0.016)),
-        ("embark/2.jpg", None, (0.010, 0.016), (0.013, 0.021)),
-        ("embark/4.png", None, (0.021, 0.004), (0.037, 0.007)),
+        ("skimage/brick.png", 256, (0.0093, 0.0059), (0.017, 0.009), 1.0),
+        ("embark/1.jpg", None, (0.0100, 0.0134), (0.019, 0.016), 1.2),
+        ("embark/2.jpg", None, (0.0082, 0.0150), (0.013, 0.021), 1.0),
+        ("embark/4.png", None, (0.0147, 0.0003), (0.037, 0.007), 1.0),
     ],
 )
-def test_grown_textures_are_near_to_their_exemplars(corpus, name, side, prototype, open_program):
-    made = grow("texture_optimization", picture(corpus, name, side), (512, 512), seed=2)
+def test_grown_textures_are_near_to_their_exemplars(
+    corpus, name, side, prototype, open_program, more
+):
+    exemplar = picture(corpus, name, side)
+
+    made = grow("texture_optimization", exemplar, (512, 512), seed=2)
 
     quality = made.report["quality"]
-    assert quality["to_exemplar_2"] <= SEEDS_DIFFER * prototype[0]
+    assert quality["to_exemplar_2"] <= more * prototype[0]
     assert quality["to_exemplar_2"] < open_program[0]
-    assert quality["from_exemplar_2"] <= SEEDS_DIFFER * max(prototype[1], open_program[1])
+    assert quality["from_exemplar_2"] <= more * 1.05 * prototype[1]
+    assert quality["from_exemplar_2"] < open_program[1]
     assert quality["seam"] <= 1
+    assert max(longest_lines(made, exemplar)) <= 0.5
+
+
+@pytest.mark.parametrize("name", ["oiio/tahoe-tiny.tif", "embark/bricks.png"])
+def test_half_of_an_exemplar_is_the_most_that_is_copied(corpus, name):
+    exemplar = picture(corpus, name, alpha=True)
+
+    made = grow("texture_optimization", exemplar, (512, 512), seed=2)
+
+    assert max(longest_lines(made, exemplar)) <= 0.5
 
 
 @pytest.mark.parametrize("technique", ["texture_optimization", "ashikhmin"])

@@ -5,7 +5,9 @@ import pytest
 
 from api_schemas.textures.gabor import GaborSpec
 from worker.stages import silent
-from worker.synthesis.gabor import CUT, energy, impulses_of, synthesize, variance
+from worker.synthesis._gabor_rows import CUT
+from worker.synthesis._gabor_solid import solid_energy, solid_impulses
+from worker.synthesis.gabor import energy, impulses_of, synthesize, synthesize_volume, variance
 
 
 def spec(**fields):
@@ -98,3 +100,73 @@ def test_pixels_do_not_depend_on_the_number_of_threads(with_threads):
     two = with_threads(2, lambda: noise((100, 90), frequency=8.0))
 
     assert one.tobytes() == two.tobytes()
+
+
+def solid(size, **fields):
+    """The noise in space with variance 1."""
+    made = synthesize_volume(spec(range="signed", **fields), size, {}, silent)
+    return 4 * made.voxels[..., 0].astype(np.float64)
+
+
+def test_x12_the_energy_of_a_kernel_of_space_is_the_integral_of_its_square():
+    x = np.arange(-40, 40) / 8
+    square = np.add.outer(np.add.outer(x * x, x * x), x * x)
+    wave = np.exp(-np.pi * 0.5**2 * square) * np.cos(2 * np.pi * 0.4 * x)
+
+    assert solid_energy(0.4, 0.5) == pytest.approx((wave**2).sum() / 512, rel=1e-6)
+
+
+def test_a_voxel_is_the_sum_of_all_kernels_and_of_their_copies():
+    fields = {"frequency": 1.75, "bandwidth": 1.5, "orientation": 0.4, "spread": 1.0, "seed": 3}
+    found = solid_impulses(spec(**fields, impulses=9))
+    w, v, u = np.meshgrid(*[(np.arange(n) + 0.5) / n for n in (13, 14, 15)], indexing="ij")
+    here = np.stack([u, 1 - v, w], axis=-1)
+    expected = np.zeros(u.shape)
+    for place, direction, weight in zip(*found, strict=True):
+        for turn in np.ndindex(3, 3, 3):
+            off = here - place + turn - 1
+            near = (np.abs(off) <= CUT / 1.5).all(axis=-1)
+            under = np.exp(-np.pi * 2.25 * (off**2).sum(axis=-1))
+            expected += near * weight * under * np.cos(2 * np.pi * 1.75 * (off @ direction))
+    variance = len(found.weights) * solid_energy(1.75, 1.5)
+
+    voxels = solid((15, 14, 13), **fields, impulses=9)
+
+    assert voxels == pytest.approx(expected / np.sqrt(variance), abs=2e-6)
+
+
+@pytest.mark.parametrize("spread", [0.0, 0.7, np.pi])
+def test_waves_of_space_run_as_far_from_where_they_are_told_as_they_may(spread):
+    directions = solid_impulses(spec(spread=spread, orientation=0.5, bandwidth=16)).directions
+
+    assert np.linalg.norm(directions, axis=1) == pytest.approx(1)
+    cosines = directions @ [np.cos(0.5), np.sin(0.5), 0]
+    # Even over the cap: heights on a sphere are
+    assert cosines.min() >= np.cos(spread) - 1e-12
+    assert cosines.mean() == pytest.approx((1 + np.cos(spread)) / 2, abs=0.02)
+
+
+def test_x12_the_variance_in_space_is_density_times_energy():
+    fields = {"frequency": 10.0, "bandwidth": 6.0, "spread": np.pi, "impulses": 8}
+
+    found = np.mean([solid((64, 64, 64), **fields, seed=seed).var() for seed in range(3)])
+
+    # 3 x 6^3 independent places, of which each deviates by sqrt 2: four standard errors 22 %
+    assert found == pytest.approx(1, rel=0.22)
+
+
+def test_a_solid_of_waves_joins_its_opposite_faces():
+    cube = solid((32, 32, 32), frequency=3.0, bandwidth=2.0, spread=2.0, impulses=4)
+
+    for axis in range(3):
+        seam = np.abs(np.take(cube, 0, axis) - np.take(cube, -1, axis)).max()
+        assert seam <= 1.2 * np.abs(np.diff(cube, axis=axis)).max()
+
+
+def test_voxels_do_not_depend_on_the_number_of_threads(with_threads):
+    fields = {"frequency": 3.0, "bandwidth": 2.0, "impulses": 2}
+
+    one = with_threads(1, lambda: solid((16, 15, 14), **fields).tobytes())
+    two = with_threads(2, lambda: solid((16, 15, 14), **fields).tobytes())
+
+    assert one == two

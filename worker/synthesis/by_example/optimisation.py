@@ -4,8 +4,9 @@ The engine behind growing, filling and moving. On each level, from coarse to fin
 turns: every patch of the target looks for its nearest source patch, then every pixel takes the
 source pixel most of its patches propose (Kwatra et al., 2005, with the discrete solver of Han et
 al., 2006, and random search). A patch that has been used more often than its share becomes
-expensive (Kaspar et al., 2015), or smooth places would take over. Pixels that are fixed never
-change, but their neighbours have to fit to them.
+expensive (Kaspar et al., 2015), or smooth places would take over. What copies too much of the
+exemplar in one line is barred from doing so. Pixels that are fixed never change, but their
+neighbours have to fit to them.
 """
 
 from __future__ import annotations
@@ -15,7 +16,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy import ndimage
 
-from worker.synthesis.by_example.long_copies import late
+from worker.synthesis.by_example.block_fitting import fitting_blocks
+from worker.synthesis.by_example.long_copies import bar, late
 from worker.synthesis.by_example.patch_grid import PatchGrid
 from worker.synthesis.by_example.patch_match import (
     NEVER,
@@ -50,6 +52,10 @@ _STARTS = 8
 _DENSE_BELOW = 160
 _PRESSURE = 0.1
 _NOWHERE = -(2**20)
+_BLOCK = 0.42  # of the exemplar's sides: as large as can be without being copied too long
+_ROOM = 1.1  # on the coarsest level, where a patch is nearly as large as a block
+_CUT = 0.95
+_MENDING = 12  # rounds at most, after the last of the finest level
 
 
 def optimise(
@@ -71,8 +77,11 @@ def optimise(
         name = f"level {level.depth + 1} of {len(steps)}"
         if level.depth:
             state = _Search(task, level, dense=level.depth + 1 < len(steps)).refining(state)
-        for turn in range(level.depth == 0, _rounds(level)):
-            done = sum(work[: level.depth]) + turn * level.fixed.size
+        rounds = _rounds(level)
+        for turn in range(level.depth == 0, rounds + _MENDING):
+            if turn >= rounds and not (level is steps[-1] and state.bars_long_copies()):
+                break
+            done = sum(work[: level.depth]) + min(turn, rounds) * level.fixed.size
             report(done / sum(work), name)
             state.advance(turn)
             if show is not None and not level.fixed.any():
@@ -90,7 +99,7 @@ def _begun(task: Task, level: Level, *, dense: bool) -> _Search:
     """Begin with what is given, or several times by chance, and go on with what fits best."""
     if task.start is not None:
         return _Search(task, level, dense=dense).following(task.start)
-    found = [_Search(task, level, dense=dense).random(use) for use in range(_STARTS)]
+    found = [_Search(task, level, dense=dense).beginning(use) for use in range(_STARTS)]
     for state in found:
         for turn in range(_rounds(level) // 2):
             state.advance(turn)
@@ -104,7 +113,7 @@ class _Search:
         height, width = level.fixed.shape
         side = fitting_side(level.usable, (height, width), level.patch_side)
         stride = 1 if dense or min(height, width) < _DENSE_BELOW or side < 5 else 2
-        self._task, self._level = task, level
+        self._task, self._level, self._finest = task, level, not dense
         self._grid = PatchGrid((height, width), side, stride, task.tileable)
         self._covers = self._grid.cover(0), self._grid.cover(1)
         self._allowed = whole_windows(level.usable, (side, side))
@@ -116,18 +125,22 @@ class _Search:
         self._barred = np.full((*self._grid.counts, 2), _NOWHERE, np.int32)
         self.place = np.zeros((height, width, 2), np.int32)
 
-    def random(self, use: int) -> _Search:
-        """Begin with random blocks, or, where pixels are fixed, with what continues them."""
-        side = max(self._grid.side, min(self._level.usable.shape) // 2)
-        limits = self._allowed.shape
-        blocks = random_blocks(self._grid, (limits[0], limits[1]), side, self._task.seed, use)
+    def beginning(self, use: int) -> _Search:
+        """Begin with blocks, or, where pixels are fixed, with what continues them."""
+        grid, seed, source = self._grid, self._task.seed, self._level.source
+        height, width = self._level.usable.shape
+        if self._level.fixed.any() or self._task.guides is not None:
+            limits = (self._allowed.shape[0], self._allowed.shape[1])
+            blocks = random_blocks(grid, limits, max(grid.side, min(height, width) // 2), seed, use)
+        else:
+            size = (max(grid.side, int(_BLOCK * height)), max(grid.side, int(_BLOCK * width)))
+            blocks = fitting_blocks(grid, source, self._allowed, size, seed, use)
         self._field = Field.of(*self._onto_allowed(*blocks))
-        self._active = np.ones(self._grid.counts, bool)
+        self._active = self._needed
         if self._level.fixed.any():
             voted = self._voted.shape[2]
             known = self._features[..., :voted]
             self._features[..., :voted] = continued_outwards(known, self._level.fixed)
-            self._active = self._needed
         else:
             self._vote()
         return self
@@ -163,7 +176,8 @@ class _Search:
 
     def advance(self, turn: int) -> None:
         """Let patches look twice for better source patches, then pixels choose anew."""
-        self._bar_long_copies()
+        if self._level.depth == 0:
+            self.bars_long_copies(1.0 if self._finest else _ROOM)
         patches = self._patches()
         if turn == 0:
             evaluate(patches, self._field, self._needed)
@@ -198,25 +212,29 @@ class _Search:
         broken = self._grid.breaks(self._field.rows, self._field.columns)
         self._active = self._needed & (self._grid.holding(changed) | broken)
 
-    def _bar_long_copies(self) -> None:
-        """Let patches in the midst of what is late not use what they use."""
-        share = self._task.longest_copy
-        if share is None:
-            return
-        half = self._grid.side // 2
-        longest = [int(share * length) - half for length in self._level.usable.shape]
-        if min(longest) < self._grid.side:
-            return
-        wraps = self._task.tileable
-        spoilt = late(self.place, (longest[0], longest[1]), wraps=wraps)
-        if not spoilt.any():
-            return
-        rows, columns = self._grid.places(0, half), self._grid.places(1, half)
-        middles = self.place[rows[:, np.newaxis], columns] - half
-        uses = np.stack(self._field[:2], axis=-1)
-        found = spoilt[rows[:, np.newaxis], columns] & (middles == uses).all(axis=-1)
-        self._barred[found] = uses[found]
+    def bars_long_copies(self, room: float = 1.0) -> bool:
+        """Let patches not use what they copy too much of in one line; return if there are any.
+
+        Lines that are too long are made a little shorter than they may be, or they would soon be
+        too long again.
+
+        Args:
+            room: How long lines may become, as a multiple of the longest that is wished.
+        """
+        if self._task.longest_copy is None:
+            return False
+        share = self._task.longest_copy * room
+        shape, wraps = self._level.usable.shape, self._task.tileable
+        for cut in (1.0, _CUT):
+            down, across = (int(share * cut * length) for length in shape)
+            if min(down, across) <= self._grid.side:
+                return False
+            spoilt = late(self.place, (down, across), wraps=wraps)
+            if not spoilt.any():
+                return False
+        found = bar(spoilt, self.place, self._field, self._covers, self._barred)
         self._active |= found
+        return bool(found.any())
 
     def _patches(self) -> Patches:
         return Patches(

@@ -78,10 +78,10 @@ class PatchGrid:
             return np.ones(self.counts, bool)
         tall = np.zeros((self.counts[0], self.size[1]), bool)
         for inner in range(self.side):
-            tall |= np.take(pixels, self.places(0, inner), axis=0)
+            tall |= np.take(pixels, self._places(0, inner), axis=0)
         held = np.zeros(self.counts, bool)
         for inner in range(self.side):
-            held |= np.take(tall, self.places(1, inner), axis=1)
+            held |= np.take(tall, self._places(1, inner), axis=1)
         return held
 
     def breaks(self, rows: Integers, columns: Integers) -> Mask:
@@ -95,8 +95,7 @@ class PatchGrid:
         broken[:-1] |= down
         return broken
 
-    def places(self, axis: int, inner: int) -> NDArray[np.int64]:
-        """Return where along an axis pixel `inner` of each patch lies."""
+    def _places(self, axis: int, inner: int) -> NDArray[np.int64]:
         places = np.arange(self.counts[axis]) * self.stride + inner
         length = self.size[axis]
         return places % length if self.wraps else np.minimum(places, length - 1)

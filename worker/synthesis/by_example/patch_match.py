@@ -109,32 +109,36 @@ def difference(
     target: Bytes,
     source: Bytes,
     place: tuple[int, int, int, int],
-    side: int,
-    channels: int,
+    size: tuple[int, int],
     counts: Bytes,
     limit: int,
 ) -> np.int64:
-    """Return the squared difference of two patches, or any number >= limit if it is that large.
+    """Return the squared difference of two pieces, or any number >= limit if it is that large.
 
-    `place` is the row and column of the target's patch, then of the source's.
+    Args:
+        target: Lines of bytes.
+        source: Likewise.
+        place: Row and byte of the target's piece, then of the source's.
+        size: How many rows and bytes they have.
+        counts: Made by `counting` for so many bytes.
+        limit: Of what is of interest.
     """
     total = np.int64(0)
-    left, other_left = place[1] * channels, place[3] * channels
-    for line in range(side):
+    for line in range(size[0]):
         row, other_row = place[0] + line, place[2] + line
-        for i in range(0, side * channels, WIDTH):
-            total += squares(target, row, left + i, source, other_row, other_left + i, counts, i)
+        for i in range(0, size[1], WIDTH):
+            total += squares(target, row, place[1] + i, source, other_row, place[3] + i, counts, i)
         if total >= limit:
             return total
     return total
 
 
 @kernel
-def _is_barred(barred: Integers, y: int, x: int, v: int, u: int, side: int) -> bool:
+def _is_barred(barred: Integers, side: int, y: int, x: int, v: int, u: int) -> bool:
     if barred.shape[0] == 0:
         return False
-    near = 2 * abs(v - barred[y, x, 0]) < side and 2 * abs(u - barred[y, x, 1]) < side
-    return bool(near)
+    near_row = 2 * abs(v - barred[y, x, 0]) < side
+    return bool(near_row and 2 * abs(u - barred[y, x, 1]) < side)
 
 
 @parallel_kernel
@@ -152,6 +156,7 @@ def _evaluate(
     active: NDArray[np.bool_],
     counts: Bytes,
 ) -> None:
+    size = (side, side * channels)
     for y in prange(rows.shape[0]):
         for x in range(rows.shape[1]):
             if not active[y, x]:
@@ -159,11 +164,9 @@ def _evaluate(
             v, u = rows[y, x], columns[y, x]
             penalty = penalties[v, u]
             costs[y, x] = NEVER
-            if penalty < NEVER and not _is_barred(barred, y, x, v, u, side):
-                place = (y * stride, x * stride, v, u)
-                costs[y, x] = penalty + difference(
-                    target, source, place, side, channels, counts, NEVER
-                )
+            if penalty < NEVER and not _is_barred(barred, side, y, x, v, u):
+                place = (y * stride, x * stride * channels, v, u * channels)
+                costs[y, x] = penalty + difference(target, source, place, size, counts, NEVER)
 
 
 @parallel_kernel
@@ -186,6 +189,7 @@ def _improve(
     tries: int,
     band_rows: int,
 ) -> None:
+    size = (side, side * channels)
     height, width = rows.shape
     bottom, right = penalties.shape
     shift = band_rows // 2 if iteration % 2 == 1 else 0
@@ -209,10 +213,10 @@ def _improve(
                     if not (0 <= v < bottom and 0 <= u < right) or (v == best_v and u == best_u):
                         continue
                     penalty = penalties[v, u]
-                    if penalty < best and not _is_barred(barred, y, x, v, u, side):
-                        place = (y * stride, x * stride, v, u)
+                    if penalty < best and not _is_barred(barred, side, y, x, v, u):
+                        place = (y * stride, x * stride * channels, v, u * channels)
                         cost = penalty + difference(
-                            target, source, place, side, channels, counts, best - penalty
+                            target, source, place, size, counts, best - penalty
                         )
                         if cost < best:
                             best, best_v, best_u = cost, v, u
@@ -224,10 +228,10 @@ def _improve(
                     v = low_v + below(bits, min(bottom, best_v + reach + 1) - low_v)
                     u = low_u + below(bits >> np.uint64(32), min(right, best_u + reach + 1) - low_u)
                     penalty = penalties[v, u]
-                    if penalty < best and not _is_barred(barred, y, x, v, u, side):
-                        place = (y * stride, x * stride, v, u)
+                    if penalty < best and not _is_barred(barred, side, y, x, v, u):
+                        place = (y * stride, x * stride * channels, v, u * channels)
                         cost = penalty + difference(
-                            target, source, place, side, channels, counts, best - penalty
+                            target, source, place, size, counts, best - penalty
                         )
                         if cost < best:
                             best, best_v, best_u = cost, v, u

@@ -110,7 +110,8 @@ def _meet(
     for known in range(last + 1):
         if costs[known] < NEVER and rows[known] == v and columns[known] == u:
             return
-    cost = difference(target, source, place, side, channels, counts, costs[last])
+    lies = (place[0], place[1] * channels, v, u * channels)
+    cost = difference(target, source, lies, (side, side * channels), counts, costs[last])
     if cost >= costs[last]:
         return
     slot = last

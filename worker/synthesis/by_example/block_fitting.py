@@ -1,0 +1,163 @@
+"""Blocks of an exemplar laid so that each continues its neighbours: a start for optimisation.
+
+Whatever is within a block fits perfectly, and large ones have structure at once. They are laid one
+after the other, each where it continues its neighbours best (as Efros and Freeman, 2001, quilt), so
+that little is left to mend between them.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from worker.byte_squares import counting
+from worker.numba_kernel import parallel_kernel, prange
+from worker.synthesis._counter_hash import uniforms
+from worker.synthesis.by_example.patch_match import NEVER, difference, lines
+from worker.synthesis.by_example.starting import random_blocks
+from worker.synthesis.by_example.windows import whole_windows
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from worker.synthesis.by_example.patch_grid import PatchGrid
+
+    Bytes = NDArray[np.uint8]
+    Mask = NDArray[np.bool_]
+    Integers = NDArray[np.int64]
+
+_EVENNESS, _CHANCE = 1.0, 0.15
+"""What using each pixel once more, and mere chance, weigh beside how well a block continues."""
+
+
+def fitting_blocks(
+    grid: PatchGrid, source: Bytes, allowed: Mask, size: tuple[int, int], seed: int, use: int
+) -> tuple[Integers, Integers]:
+    """Return rows and columns of source patches: blocks that continue each other well.
+
+    Of blocks that do, those are preferred whose pixels have not been used yet. None continues its
+    neighbour in the source itself. Where the source has no room for them, blocks are random.
+
+    Args:
+        grid: Of the target's patches.
+        source: Features, (height, width, channels).
+        allowed: Which patches of the source may be used.
+        size: Height and width of a block in pixels, nearly: they divide the target evenly.
+        seed: Of the random numbers.
+        use: Another one, other blocks.
+    """
+    places = [np.arange(count) * grid.stride for count in grid.counts]
+    edges = [_divided(int(at[-1]) + 1, side) for at, side in zip(places, size, strict=True)]
+    height, width = (int(np.diff(marks).max()) for marks in edges)
+    free = whole_windows(allowed, (height, width))
+    if not free.any():
+        return random_blocks(grid, (allowed.shape[0], allowed.shape[1]), min(size), seed, use)
+    choice = _Choice(source, free, (height, width), grid.side)
+    starts = np.full((len(edges[0]) - 1, len(edges[1]) - 1, 2), -1, np.int64)
+    for number, block in enumerate(np.ndindex(*starts.shape[:2])):
+        chance = uniforms(seed, 2**16 + use, free.size, number * free.size).reshape(free.shape)
+        starts[block] = choice.best(_beside(starts, block, wraps=grid.wraps), chance)
+    within = [
+        np.searchsorted(marks, at, "right") - 1 for marks, at in zip(edges, places, strict=True)
+    ]
+    inner = [at - marks[of] for at, marks, of in zip(places, edges, within, strict=True)]
+    first = starts[within[0][:, np.newaxis], within[1]]
+    return first[..., 0] + inner[0][:, np.newaxis], first[..., 1] + inner[1]
+
+
+class _Neighbour(NamedTuple):
+    """A block beside another: which way (rows down, columns across), and where it is taken from."""
+
+    down: int
+    across: int
+    row: int
+    column: int
+
+
+class _Choice:
+    """Blocks of a source, of which one after the other is taken."""
+
+    def __init__(self, source: Bytes, free: Mask, size: tuple[int, int], side: int) -> None:
+        self._lines, self._channels = lines(source), source.shape[2]
+        self._free, self._size, self._side = free, size, side
+        self._used = np.zeros(source.shape[:2], np.int64)
+
+    def best(self, beside: list[_Neighbour], chance: NDArray[np.float64]) -> tuple[int, int]:
+        """Return the corner of the block that continues its neighbours best."""
+        height, width = self._size
+        costs = np.zeros(self._free.shape, np.int64)
+        barred = ~self._free
+        rows, columns = np.indices(self._free.shape)
+        for near in beside:
+            self._compare(near, costs)
+            barred |= (np.abs(rows - near.row + near.down * height) < self._side) & (
+                np.abs(columns - near.column + near.across * width) < self._side
+            )
+        if barred.all():
+            barred = ~self._free
+        scale = np.median(costs) if beside else 1.0
+        scores = costs + scale * (_EVENNESS * self._use() + _CHANCE * chance)
+        scores[barred] = np.inf
+        v, u = (int(k) for k in np.unravel_index(scores.argmin(), scores.shape))
+        self._used[v : v + height, u : u + width] += 1
+        return v, u
+
+    def _compare(self, near: _Neighbour, costs: Integers) -> None:
+        """Add what blocks and a neighbour differ by where either continues into the other."""
+        (height, width), overlap = self._size, max(1, self._side - 1)
+        size = (height if near.across else overlap, width if near.down else overlap)
+        _compare(
+            self._lines,
+            self._channels,
+            (max(near.down, 0) * height, max(near.across, 0) * width),
+            (near.row + max(-near.down, 0) * height, near.column + max(-near.across, 0) * width),
+            size,
+            counting(size[1] * self._channels),
+            costs,
+        )
+
+    def _use(self) -> NDArray[np.float64]:
+        """Return how often the pixels of each block have been used, as a multiple of the mean."""
+        height, width = self._size
+        sums = np.pad(self._used.cumsum(0).cumsum(1), ((1, 0), (1, 0)))
+        rows, columns = self._free.shape
+        tall = sums[height : height + rows] - sums[:rows]
+        wide = tall[:, width : width + columns] - tall[:, :columns]
+        return np.asarray(wide / (height * width * max(float(self._used.mean()), 1e-6)))
+
+
+def _divided(length: int, side: int) -> Integers:
+    """Return where equal parts of about `side` begin and end."""
+    count = max(1, round(length / side))
+    return np.arange(count + 1) * length // count
+
+
+def _beside(starts: Integers, block: tuple[int, ...], *, wraps: bool) -> list[_Neighbour]:
+    """Return the blocks around one that have been chosen already."""
+    found = []
+    for down, across in ((0, -1), (0, 1), (-1, 0), (1, 0)):
+        y, x = block[0] + down, block[1] + across
+        if wraps:
+            y, x = y % starts.shape[0], x % starts.shape[1]
+        inside = 0 <= y < starts.shape[0] and 0 <= x < starts.shape[1]
+        if inside and starts[y, x, 0] >= 0:
+            found.append(_Neighbour(down, across, int(starts[y, x, 0]), int(starts[y, x, 1])))
+    return found
+
+
+@parallel_kernel
+def _compare(
+    source: Bytes,
+    channels: int,
+    ours: tuple[int, int],
+    theirs: tuple[int, int],
+    size: tuple[int, int],
+    counts: Bytes,
+    costs: Integers,
+) -> None:
+    extent = (size[0], size[1] * channels)
+    for v in prange(costs.shape[0]):
+        for u in range(costs.shape[1]):
+            place = (theirs[0], theirs[1] * channels, v + ours[0], (u + ours[1]) * channels)
+            costs[v, u] += difference(source, source, place, extent, counts, NEVER)
