@@ -120,7 +120,7 @@ def test_a_streak_of_sky_costs_as_many_mirrors(
 
     sky = {"texture": PICTURE}
     assert seconds(brushed, sky) > seconds(plain, sky) + 1
-    assert seconds(brushed, None) == pytest.approx(seconds(plain, None), rel=1e-6)
+    assert seconds(brushed, None) < seconds(plain, None) + 0.1  # tangents are made once
 
 
 FACES = ("front", "right", "back", "left", "top", "bottom")

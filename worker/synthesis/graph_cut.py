@@ -18,7 +18,7 @@ from worker.synthesis._counter_hash import uniforms
 from worker.synthesis.by_example.exemplar import Exemplar
 from worker.synthesis.by_example.flow_cut import Pairs, least_cut
 from worker.synthesis.by_example.placing import Placing, Squares
-from worker.synthesis.by_example.result import finished
+from worker.synthesis.by_example.result import finished, gathered
 from worker.synthesis.by_example.views import Views, square
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from api_schemas.textures.graph_cut import GraphCutSpec
     from worker.images.image import Image
-    from worker.stages import Report
+    from worker.preview import Progress
 
     Mask = NDArray[np.bool_]
     Integers = NDArray[np.int64]
@@ -40,7 +40,7 @@ _NEIGHBOURS = (((0, 1), np.s_[:, :-1], np.s_[:, 1:]), ((1, 0), np.s_[:-1], np.s_
 
 
 def synthesize(
-    spec: GraphCutSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Report
+    spec: GraphCutSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Progress
 ) -> Outcome:
     """Sew `spec.size` pixels and bring them to (width, height).
 
@@ -60,6 +60,8 @@ def synthesize(
             report(share, f"pass {done} of {spec.passes}")
             _lay(canvas, views, placing, corner, spec.tolerance, chances[index])
         energies.append(_energy(canvas, views))
+        so_far = gathered(views.sources(canvas.result(spec.size)), exemplar.image)
+        report((done + 1) / (spec.passes + 1), "so far", so_far)
     spots = canvas.result(spec.size)
     place, turns = views.sources(spots), spots[..., 0]
     made = finished(place, exemplar, inputs, size, turns=turns, normal_range=spec.normal_range)

@@ -133,7 +133,7 @@ def test_a_flat_map_changes_nothing(studio: Studio, kind: str) -> None:
     how = {"range": "signed"} if kind == "normal" else {"encoding": "float"}
     flat = {kind: {"texture": studio.texture([[held]]), "fine_detail": "roughness", **how}}
 
-    for technique in ("phong", "ward", "metallic_roughness", "glass", "ashikhmin_shirley"):
+    for technique in ("phong", "ward", "metallic_roughness"):
         surface = {"technique": technique}
         assert head_on(studio, {**surface, **flat}) == head_on(studio, surface)
 

@@ -5,8 +5,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from api_schemas.feasibility import obstacles
-from api_schemas.requests import RenderRequest
 from tests.worker.rendering.studio import Pixels, Studio
 
 pytestmark = pytest.mark.gl
@@ -277,34 +275,3 @@ def test_the_thickest_cloud_is_a_wall(studio: Studio) -> None:
 
     assert np.isfinite(seen).all()
     assert seen[..., 0].max() < 2
-
-
-@pytest.mark.parametrize(
-    ("node", "pointer"),
-    [
-        ({"mesh": {"type": "sphere"}, "surface": {"technique": "volume"}}, "/surface"),
-        (
-            box() | {"displacement": {"texture": CONSTANT, "depth": 0.1}},
-            "/surface",
-        ),
-        (
-            {
-                "mesh": {"type": "torus"},
-                "surface_map": {
-                    "texture": CONSTANT,
-                    "surfaces": [{"technique": "unlit"}, {"technique": "volume"}],
-                },
-            },
-            "/surface_map/surfaces/1",
-        ),
-    ],
-)
-def test_what_is_no_plain_box_is_refused_at_its_place(node: dict[str, Any], pointer: str) -> None:
-    request = RenderRequest.model_validate({"scene": {"nodes": [{"children": [node]}]}})
-
-    (found,) = obstacles(request)
-
-    assert (found.code, found.pointer) == (
-        "volume_without_box",
-        f"/scene/nodes/0/children/0{pointer}",
-    )

@@ -140,6 +140,15 @@ def test_the_picture_goes_on_around_its_edges(soft):
     assert quality["seam"] <= 1
 
 
+def test_after_each_pass_it_can_be_seen_and_the_last_is_the_result():
+    shown = []
+
+    made = grow(noise(40, 40), (60, 50), block=16, show=shown.append)
+
+    assert len(shown) == 3
+    assert shown[-1].pixels.tobytes() == made.image.pixels.tobytes()
+
+
 def test_what_has_no_alpha_is_never_copied():
     exemplar = np.concatenate([noise(40, 40), np.ones((40, 40, 1), np.float32)], axis=-1)
     exemplar[18:22, :30] = 0

@@ -82,6 +82,21 @@ def test_pieces_are_turned():
     assert along[1] > 2 * along[0]
 
 
+def test_turned_pieces_keep_their_size():
+    rows, columns = np.indices((96, 96)) / 96
+    places = np.stack([rows, columns, np.zeros((96, 96))], axis=-1)
+
+    pixels = grow(places, (96, 96), piece=24, rotation=1, sharpness=64, contrast=0) * 96
+
+    # A step of one pixel is one in the exemplar, to whichever side, but where pieces meet; and a
+    # step down stands upright on one to the right
+    right, down = np.diff(pixels, axis=1)[:-1, :, :2], np.diff(pixels, axis=0)[:, :-1, :2]
+    for step in (right, down):
+        assert np.median(np.hypot(*step.T)) == pytest.approx(1, abs=1e-3)
+    assert np.median(np.abs((right * down).sum(axis=-1))) < 1e-3
+    assert len(np.unique(np.rint(np.arctan2(*right.T) * 4))) > 6
+
+
 def test_what_is_light_wins():
     exemplar = (noise(64, 64, 1) > 0.5).astype(np.float32)
 
