@@ -45,5 +45,5 @@ class TextureOptimizationSpec(GuidedSpec):
         grown = self.size[0] * self.size[1]
         return Cost(
             seconds=grown * 8e-6 + within["exemplar"] * 2e-6 + pixels * 2e-8,
-            bytes=grown * 120.0 + within["exemplar"] * 200.0 + pixels * 16.0,
+            bytes=grown * 135.0 + within["exemplar"] * 200.0 + pixels * 16.0,
         )
