@@ -24,6 +24,7 @@ from worker.synthesis.by_example.clusters import Clusters, visit_clusters
 from worker.synthesis.by_example.exemplar import Exemplar
 from worker.synthesis.by_example.hashing import below, scrambled
 from worker.synthesis.by_example.result import finished
+from worker.synthesis.by_example.surroundings import known_around
 from worker.synthesis.by_example.windows import middles
 from worker.synthesis.by_example.wishes import Wishes
 
@@ -194,7 +195,7 @@ def _visit(
     key: np.uint64,
 ) -> int:
     """Choose pixels one after the other; return how many of them found something good enough."""
-    height, width = known.shape
+    width = known.shape[1]
     lower, wide = allowed.shape
     channels = len(planes)
     reach = len(weights) // 2
@@ -204,27 +205,18 @@ def _visit(
     for pixel in pixels:
         y, x = pixel // width, pixel % width
         differences[first:last] = 0
-        total = np.int64(0)
-        for down in range(-reach, reach + 1):
-            for right in range(-reach, reach + 1):
-                near_y, near_x = y + down, x + right
-                if wraps:
-                    near_y, near_x = near_y % height, near_x % width
-                elif not (0 <= near_y < height and 0 <= near_x < width):
-                    continue
-                weight = weights[reach + down, reach + right]
-                if not known[near_y, near_x] or weight == 0:
-                    continue
-                total += weight
-                for channel in range(channels):
-                    value = np.int32(target[near_y, near_x, channel])
-                    for v in range(first, last):
-                        _add(
-                            differences[v, reach : wide - reach],
-                            planes[channel, v + down, reach + right : wide - reach + right],
-                            value,
-                            weight,
-                        )
+        steps, near, values = known_around(known, target, weights, (y, x), wraps)
+        total = near.sum()
+        for i in range(len(near)):
+            down, right = steps[i]
+            for channel in range(channels):
+                for v in range(first, last):
+                    _add(
+                        differences[v, reach : wide - reach],
+                        planes[channel, v + down, reach + right : wide - reach + right],
+                        np.int32(values[i, channel]),
+                        np.int32(near[i]),
+                    )
         least = np.int64(2**31)
         for v in range(first, last):
             for u in range(reach, wide - reach):

@@ -14,6 +14,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from worker.numba_kernel import kernel
 from worker.synthesis._counter_hash import uniforms
 from worker.synthesis.by_example.hashing import below, scrambled
+from worker.synthesis.by_example.surroundings import known_around
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -113,40 +114,22 @@ def visit_clusters(
     key: np.uint64,
 ) -> int:
     """Choose pixels one after the other; return how many of them found something good enough."""
-    height, width = known.shape
+    width = known.shape[1]
     wide, channels = features.shape[1], features.shape[2]
     means, variance, shares, members, starts = clusters
-    window = len(weights)
-    reach = window // 2
-    downs = np.empty(window * window, np.int64)
-    rights = np.empty(window * window, np.int64)
-    values = np.empty((window * window, channels), np.int64)
+    reach = len(weights) // 2
     differences = np.empty(len(members), np.int64)
     placed = 0
     for pixel in pixels:
         y, x = pixel // width, pixel % width
-        count, total = 0, np.int64(0)
-        for down in range(-reach, reach + 1):
-            for right in range(-reach, reach + 1):
-                near_y, near_x = y + down, x + right
-                if wraps:
-                    near_y, near_x = near_y % height, near_x % width
-                elif not (0 <= near_y < height and 0 <= near_x < width):
-                    continue
-                weight = weights[reach + down, reach + right]
-                if not known[near_y, near_x] or weight == 0:
-                    continue
-                downs[count], rights[count] = down, right
-                for channel in range(channels):
-                    values[count, channel] = target[near_y, near_x, channel]
-                count += 1
-                total += weight
+        steps, near, values = known_around(known, target, weights, (y, x), wraps)
+        count, total = len(near), near.sum()
         likeliest, best = 0, np.inf
         for cluster in range(len(means)):
             squares = np.int64(0)
             for i in range(count):
                 for channel in range(channels):
-                    mean = means[cluster, reach + downs[i], reach + rights[i], channel]
+                    mean = means[cluster, reach + steps[i, 0], reach + steps[i, 1], channel]
                     squares += (values[i, channel] - np.int64(mean)) ** 2
             # Twice the negative logarithm of the Gaussian's density times its share
             unlikely = squares / variance - 2 * np.log(shares[cluster])
@@ -158,19 +141,19 @@ def visit_clusters(
             v, u = members[member] // wide, members[member] % wide
             squares = np.int64(0)
             for i in range(count):
-                weight = weights[reach + downs[i], reach + rights[i]]
+                down, right = steps[i]
                 for channel in range(channels):
-                    step = values[i, channel] - features[v + downs[i], u + rights[i], channel]
-                    squares += weight * step * step
+                    step = values[i, channel] - features[v + down, u + right, channel]
+                    squares += near[i] * step * step
             differences[member] = squares
             least = min(least, squares)
         if total > 0 and least > bound * (65025.0 * channels) * total:
             continue
         limit = np.int64(np.floor(least * 1.1))
-        near = 0
+        alike = 0
         for member in range(first, last):
-            near += differences[member] <= limit
-        chosen = below(scrambled(key, pixel), near)
+            alike += differences[member] <= limit
+        chosen = below(scrambled(key, pixel), alike)
         for member in range(first, last):
             if differences[member] <= limit:
                 if chosen == 0:
