@@ -40,3 +40,7 @@ REQUESTS: dict[Kind, type[TextureRequest] | type[RenderRequest]] = {
     "render": RenderRequest,
 }
 """The body of each kind of job."""
+
+for _model in REQUESTS.values():
+    # Schemas are built when first used; the first caller should not be the one to wait for it
+    _model.model_rebuild()
