@@ -122,6 +122,17 @@ def _sum_all(
 
 
 @kernel
+def push_quarters(stack: NDArray[np.int64], held: int, level: int, row: int, column: int) -> int:
+    """Put the four smaller pieces of one on a stack; return how many it holds then."""
+    for child in range(4):
+        stack[held, 0] = level - 1
+        stack[held, 1] = 2 * row + (child >> 1)
+        stack[held, 2] = 2 * column + (child & 1)
+        held += 1
+    return held
+
+
+@kernel
 def add_up(
     total: Floats,
     stack: NDArray[np.int64],
@@ -147,11 +158,7 @@ def add_up(
             if cosine < -size[level]:
                 continue  # all of it is behind
             if level > 0 and cosine > near[level]:
-                for child in range(4):
-                    stack[held, 0] = level - 1
-                    stack[held, 1] = 2 * row + (child >> 1)
-                    stack[held, 2] = 2 * column + (child & 1)
-                    held += 1
+                held = push_quarters(stack, held, level, row, column)
                 continue
             if cosine > 0:
                 total[0] += texels[at, 3] * value(kind, sharpness, cosine)

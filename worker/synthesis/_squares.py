@@ -12,7 +12,7 @@ import numpy as np
 
 from worker.numba_kernel import kernel, parallel_kernel, prange
 from worker.synthesis._lobes import PHONG, phong, value
-from worker.synthesis._pieces import add_up, fill_near, pieces, sizes
+from worker.synthesis._pieces import add_up, fill_near, pieces, push_quarters, sizes
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -129,11 +129,7 @@ def _sum_square(
             if cosine < -size[level] - spread:
                 continue  # all of it is behind, for all of them
             if level > 0 and cosine > near[level]:
-                for child in range(4):
-                    stack[held, 0] = level - 1
-                    stack[held, 1] = 2 * row + (child >> 1)
-                    stack[held, 2] = 2 * column + (child & 1)
-                    held += 1
+                held = push_quarters(stack, held, level, row, column)
                 continue
             _weigh(weights, kind, sharpness, ways, x, y, z)
             _add(totals[0], weights, texels[at, 3])
