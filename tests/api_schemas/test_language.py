@@ -107,3 +107,10 @@ def test_generated_requests_fit_the_published_schema(body):
     validator = jsonschema_rs.validator_for(RenderRequest.model_json_schema())
 
     assert validator.is_valid(body)
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_every_field_knows_its_type_and_with_it_what_its_slot_means(family):
+    for spec in FAMILIES[family].values():
+        for name, field in spec.model_fields.items():
+            assert "ForwardRef" not in repr(field.annotation), (spec, name)
