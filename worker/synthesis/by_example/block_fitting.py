@@ -99,7 +99,8 @@ class _Choice:
             barred = ~self._free
         scale = np.median(costs) if beside else 1.0
         # Blocks of patches reach beyond blocks of their corners: fewer of them fit
-        uses = self._uses.of_windows(self._size)[: len(rows), : rows.shape[1]]
+        down, across = self._free.shape
+        uses = self._uses.of_windows(self._size)[:down, :across]
         scores = costs + scale * (_EVENNESS * uses + _CHANCE * chance)
         scores[barred] = np.inf
         v, u = (int(k) for k in np.unravel_index(scores.argmin(), scores.shape))
