@@ -280,7 +280,8 @@ class _WornTextures:
                 self._made.add(stored)
                 self.making = max(self.making, at_once(item, texels))
                 cost += storing(item, texels)
-            if (program := f"{picture} {item.filter} {item.wrap}") not in self._made:
+            joins = list(item.joins) if isinstance(item, Cookie) else item.wrap
+            if (program := f"{picture} {item.filter} {joins}") not in self._made:
                 self._made.add(program)
                 cost += Cost(SECONDS_TO_COMPILE_A_MAP)
         return cost

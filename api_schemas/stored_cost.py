@@ -22,7 +22,9 @@ _Read = AnyMap | Cookie
 def form_of(item: _Read) -> str:
     """Name the form; what else lies beside the texels is a part of it."""
     kind = _kind(item)
-    return kind if kind == "box" else f"{kind} {item.wrap} {item.border_color}"
+    if kind == "box" or isinstance(item, Cookie):
+        return kind
+    return f"{kind} {item.wrap} {item.border_color}"
 
 
 def storing(item: _Read, texels: int) -> Cost:
@@ -38,12 +40,13 @@ def at_once(item: _Read, texels: int) -> float:
 
 
 def _kind(item: _Read) -> str:
-    if item.filter in TABLE_FILTERS:
-        return item.filter
-    return "box" if isinstance(item, Cookie) else item.pyramid
+    if isinstance(item, Cookie):
+        return "box"
+    return item.filter if item.filter in TABLE_FILTERS else item.pyramid
 
 
 def _held(item: _Read, texels: int) -> int:
     """A sum holds its mirrored copies, too."""
-    doubled = item.wrap.count("mirror") if _kind(item) == "summed_area" else 0
-    return int(texels * 2**doubled)
+    if isinstance(item, Cookie) or _kind(item) != "summed_area":
+        return texels
+    return int(texels * 2 ** item.wrap.count("mirror"))

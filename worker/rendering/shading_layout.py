@@ -74,10 +74,17 @@ class PictureLayout:
 
 @dataclass(frozen=True, slots=True)
 class CookieLayout:
-    """A picture before a light: how texels become a pixel, and its texture unit."""
+    """A picture before a light.
+
+    Attributes:
+        filter: How texels become a pixel.
+        picture: Its texture unit.
+        call: Which says how directions lie on it, if it is all round the light.
+    """
 
     filter: Filter
     picture: PictureLayout
+    call: Call | None
 
 
 @dataclass(frozen=True, slots=True)
