@@ -215,7 +215,7 @@ def _seconds_per_look(item: MAPS) -> float:
     if item.filter == "formula":
         once = sum(_seconds_per_formula(part) for _, part in parts(item.texture))
     else:
-        once = SECONDS_PER_MAP_SAMPLE[item.filter]
+        once = item.units * SECONDS_PER_MAP_SAMPLE[item.filter]
     return once * (3 if isinstance(item.coordinates, TriplanarSpec) else 1)
 
 

@@ -75,7 +75,7 @@ def _limits(request: Request) -> Iterator[Obstacle]:
         textures += isinstance(part, TextureSpec)
         nodes += isinstance(part, Node)
         if isinstance(part, SurfaceSpec):
-            maps = sum(isinstance(value, Map) for _, value in parts(part))
+            maps = sum(value.units for _, value in parts(part) if isinstance(value, Map))
             if maps > most:
                 yield Obstacle(
                     "too_many_maps", pointer, f"{maps} maps on one surface; at most {most}"

@@ -29,7 +29,7 @@ def form_of(item: _Read) -> str:
 
 def storing(item: _Read, texels: int) -> Cost:
     """Return the seconds to make the form of so many texels, and the bytes that are kept."""
-    held = _held(item, texels)
+    held = _held(item, texels) * (1 if isinstance(item, Cookie) else item.units)
     kind = _kind(item)
     return Cost(held * SECONDS_PER_TEXEL[kind], float(held * BYTES_PER_KEPT_TEXEL[kind]))
 

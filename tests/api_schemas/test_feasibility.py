@@ -144,6 +144,21 @@ def test_a_surface_has_up_to_so_many_maps(monkeypatch):
     assert found(request) == [("too_many_maps", "/scene/nodes/1/surface")]
 
 
+def test_maps_that_tell_how_slopes_vary_count_twice(monkeypatch):
+    def worn(kind, fine_detail):
+        mapped = {"texture": {"technique": "perlin"}, "fine_detail": fine_detail}
+        surface = {"technique": "metallic_roughness", kind: mapped}
+        return found(scene(nodes=[{"mesh": {"type": "box"}, "surface": surface}]))
+
+    monkeypatch.setattr(feasibility, "MAPS_MAX", 1)
+
+    many = [("too_many_maps", "/scene/nodes/0/surface")]
+    for kind, twice in (("normal", False), ("bump", False), ("height", True)):
+        assert worn(kind, "lost") == []
+        assert worn(kind, "roughness") == (many if twice else [])
+        assert worn(kind, "streaks") == many
+
+
 def test_assets_are_found_wherever_a_texture_may_stand():
     first, second = "1" * 64, "2" * 64
     surface = {

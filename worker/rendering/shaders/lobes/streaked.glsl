@@ -2,6 +2,7 @@
 #include "lib/lobe.glsl"
 #include "lib/microfacets.glsl"
 #include "lib/streak.glsl"
+#include "lib/stretched.glsl"
 
 // KHR_materials_anisotropy: alpha_t = mix(alpha, 1, strength^2), alpha_b = alpha.
 Lobe lobe_of(SurfacePoint point, float roughness, float strength, vec2 direction) {
@@ -12,13 +13,14 @@ Lobe lobe_of(SurfacePoint point, float roughness, float strength, vec2 direction
     float squared = dot(direction, direction);
     direction = squared > 0.0 ? direction * inversesqrt(squared) : vec2(1.0, 0.0);
     Scratches axes = scratches(point, 0.0);
-    return Lobe(
-        min(vec2(widened(mix(alpha, 1.0, part * part)), widened(alpha)), 1.0),
+    Widths widths = stretched(
+        vec2(widened(mix(alpha, 1.0, part * part)), widened(alpha)),
         Scratches(
             direction.x * axes.along + direction.y * axes.across,
             direction.x * axes.across - direction.y * axes.along
         )
     );
+    return Lobe(min(widths.along, 1.0), widths.axes);
 }
 
 // The mean of both squared widths: within 0.05 (RMS) of the integral over what lobes there are.
