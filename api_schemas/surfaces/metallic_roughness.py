@@ -16,6 +16,7 @@ class MetallicRoughnessSpec(SurfaceSpec):
     Ambient light counts as a uniform sky. Colours of the mesh's vertices multiply base_color.
     """
 
+    revision: ClassVar[int] = 2
     streaks: ClassVar[bool] = True
     sums_sky: ClassVar[bool] = True
     source: ClassVar[str] = (
