@@ -1,10 +1,10 @@
 """Surfaces, shadows and environments, for a million pixels
 
 A square that fills 512 x 512 pixels of one sample, its colour a picture of 1024 x 1024 texels, lit
-by a lamp and an even sky; `unlit` shows the picture alone. What is streaked has a roughness of .4 and
-an `anisotropy_strength` of .5, bumps are a picture of tilts. A `volume` fills a box behind the whole
-picture, in 16 steps. Shadows are those of a ball on a floor, through maps as they come, which are
-drawn anew in each frame. All scenes take turns; figures are medians of warm frames. What an
+by a lamp and an even sky; `unlit` shows the picture alone. What is streaked has a roughness of .4
+and an `anisotropy_strength` of .5; bumps are a picture of tilts. A `volume` fills a box behind the
+whole picture, in 16 steps. Shadows are those of a ball on a floor, through maps as they come, which
+are drawn anew in each frame. All scenes take turns; figures are medians of warm frames. What an
 environment needs once is a row of its own.
 """
 
