@@ -98,7 +98,10 @@ class _Choice:
         if barred.all():
             barred = ~self._free
         scale = np.median(costs) if beside else 1.0
-        scores = costs + scale * (_EVENNESS * self._uses.of_windows(self._size) + _CHANCE * chance)
+        # Blocks of patches reach beyond blocks of their corners: fewer of them fit
+        down, across = self._free.shape
+        uses = self._uses.of_windows(self._size)[:down, :across]
+        scores = costs + scale * (_EVENNESS * uses + _CHANCE * chance)
         scores[barred] = np.inf
         v, u = (int(k) for k in np.unravel_index(scores.argmin(), scores.shape))
         self._uses.count(*np.ogrid[v : v + height, u : u + width])
