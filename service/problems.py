@@ -48,6 +48,7 @@ TABLE: Final[Mapping[str, tuple[int, str]]] = {
     "environment_texels": (409, "Numbers of an environment are infinite or none"),
     "exemplar_unusable": (409, "There is nothing to copy"),
     "exemplar_maps_differ": (409, "Exemplars do not have the same maps"),
+    "options_exclude_each_other": (409, "Options cannot be had together"),
     "layout_without_direction": (409, "A layout needs coordinates that are a direction"),
     "layout_mismatch": (409, "A picture does not have the shape of its layout"),
     "layout_impossible": (409, "A layout cannot be so"),
