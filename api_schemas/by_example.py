@@ -90,8 +90,8 @@ class GrownSpec(FromExemplarSpec):
     )
 
 
-class GrownMaterialSpec(GrownSpec):
-    """Grows all maps of a material at once: what is found in one is copied from all."""
+class MaterialSpec(FromExemplarSpec):
+    """Copies all maps of a material at once: what is found in one is copied from all."""
 
     layers: ClassVar[tuple[str, ...]] = ("source", *MATERIAL)
 
@@ -120,6 +120,10 @@ class GrownMaterialSpec(GrownSpec):
     def has_layer(self, name: str) -> bool:
         """Whether there is such a layer: those of maps that were given."""
         return super().has_layer(name) and (name not in MATERIAL or getattr(self, name) is not None)
+
+
+class GrownMaterialSpec(MaterialSpec, GrownSpec):
+    """Grows all maps of a material at once."""
 
 
 class FurtherExemplar(Schema):

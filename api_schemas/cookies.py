@@ -5,7 +5,8 @@ from typing import Annotated
 from pydantic import Field
 
 from api_schemas.base import Length, Number, Schema, Vector
-from api_schemas.maps import COLOUR, PictureFilter, TextureTransform, Wrap
+from api_schemas.families import Wrap
+from api_schemas.maps import COLOUR, PictureFilter, TextureTransform
 from api_schemas.members import Texture
 
 COOKIES_MAX = 4

@@ -26,7 +26,7 @@ from api_schemas.coordinates.triplanar import TriplanarSpec
 from api_schemas.cost import Cost
 from api_schemas.coverage import coverage, stand_in
 from api_schemas.environment import SKY_LAMPS
-from api_schemas.families import SurfaceSpec, TextureSpec
+from api_schemas.families import TextureSpec
 from api_schemas.geometry import IDENTITY, Affine, Vector3, affine
 from api_schemas.light_cost import cookies_of, seconds_of_shadows, shadow_maps
 from api_schemas.lights import LIGHTS_MAX
@@ -38,6 +38,7 @@ from api_schemas.scene import Node
 from api_schemas.sky import SKY_SECONDS_PER_SAMPLE, sky_textures, surroundings_cost
 from api_schemas.solid import is_carved, worn_depth
 from api_schemas.stored_cost import at_once, form_of, storing
+from api_schemas.surface_spec import SurfaceSpec
 from api_schemas.textures.image import ImageSpec
 from api_schemas.walk import BRANCHES, fields_within, outermost, parts
 

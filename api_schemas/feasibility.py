@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 from api_schemas.camera import Camera, FramedCamera, ModelCamera
 from api_schemas.cookies import COOKIES_MAX
 from api_schemas.environment import Environment, Surroundings
-from api_schemas.families import SurfaceSpec, TextureSpec
+from api_schemas.families import TextureSpec
 from api_schemas.geometry import IDENTITY, Affine, Vector3, affine, cross, length, triple
 from api_schemas.light_cost import cookies_of
 from api_schemas.lights import DirectionalLight, Light, SpotLight
@@ -19,6 +19,7 @@ from api_schemas.requests import Request, TextureRequest
 from api_schemas.scene import NODES_MAX, Node
 from api_schemas.sky import SKY_MAPS
 from api_schemas.solid import flat_parts
+from api_schemas.surface_spec import SurfaceSpec
 from api_schemas.textures.image import ImageSpec
 from api_schemas.transforms import MatrixPlacement
 from api_schemas.walk import deepest, escaped, parts

@@ -3,11 +3,12 @@
 from collections.abc import Iterator
 
 from api_schemas.coordinates.triplanar import TriplanarSpec
-from api_schemas.families import SurfaceSpec, TextureSpec
+from api_schemas.families import TextureSpec
 from api_schemas.layouts.cube import CubeSpec
 from api_schemas.maps import ColorMap, Map, NumberMap, TextureTransform
 from api_schemas.obstacle import Obstacle
 from api_schemas.relief import BumpMap, HeightMap, ParallaxMap, ReliefMap
+from api_schemas.surface_spec import SurfaceSpec
 from api_schemas.walk import parts
 
 FORMULAS_MAX = 24

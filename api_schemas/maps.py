@@ -9,16 +9,13 @@ from pydantic import Field
 from typing_extensions import TypeAliasType
 
 from api_schemas.base import Angle, Color, NonNegative, Number, Pair, Schema
+from api_schemas.families import Meaning, Wrap
 from api_schemas.members import Coordinates, Layout, Texture, mappable
-
-if TYPE_CHECKING:
-    from api_schemas.families import Meaning
 
 MAPS_MAX = 24
 """Maps on one surface: with eight to spare, what OpenGL lets a shader read."""
 
 FineDetail = Literal["lost", "roughness"]
-Wrap = Literal["repeat", "mirror", "clamp", "border"]
 PictureFilter = Literal["nearest", "bilinear", "trilinear", "anisotropic"]
 TableFilter = Literal["ripmap", "summed_area"]
 Filter = Literal[PictureFilter, "ewa", TableFilter, "formula"]

@@ -6,8 +6,8 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
-from api_schemas.families import STREAK_LOOKUPS, SurfaceSpec
 from api_schemas.maps import MappableColor, MappableNonNegative, MappableNumber
+from api_schemas.surface_spec import STREAK_LOOKUPS, SurfaceSpec
 
 
 class WardSpec(SurfaceSpec):

@@ -15,10 +15,11 @@ class GraphCutSpec(SewnSpec):
     run anywhere here, and later squares may hide earlier seams.
     """
 
+    revision: ClassVar[int] = 2
     source: ClassVar[str] = "Kwatra, Schodl, Essa, Turk and Bobick, 2003; Boykov and Jolly, 2001"
     equation: ClassVar[str] = (
         "minimise the sum over all neighbours s, t from squares A, B of "
-        "|A(s) - B(s)| + |A(t) - B(t)|"
+        "(|A(s) - B(s)| + |A(t) - B(t)|) / (|dA(s)| + |dA(t)| + |dB(s)| + |dB(t)|)"
     )
 
     technique: Literal["graph_cut"]

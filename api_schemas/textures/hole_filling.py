@@ -7,14 +7,14 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from api_schemas.by_example import FromExemplarSpec
+from api_schemas.by_example import MaterialSpec
 from api_schemas.cost import Cost
 from api_schemas.maps import DATA
 from api_schemas.members import Texture
 from api_schemas.own_size import LIKE_EXEMPLAR
 
 
-class HoleFillingSpec(FromExemplarSpec):
+class HoleFillingSpec(MaterialSpec):
     """Removes what is in a hole: the exemplar, with the hole filled from what is around it.
 
     The output's size should be the exemplar's. What is outside of the hole stays as it is.

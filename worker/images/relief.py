@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from api_schemas.base import FLOAT32_MAX
-from api_schemas.maps import Wrap
+from api_schemas.families import Wrap
 from api_schemas.relief import BumpEncoding
 from worker.images.image import Image
 from worker.images.packed_floats import unpacked

@@ -7,11 +7,11 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from api_schemas.coordinates.uv import UvSpec
-from api_schemas.families import SurfaceSpec
 from api_schemas.layouts.cube import CubeSpec
 from api_schemas.maps import Map, NormalMap
 from api_schemas.relief import AnyMap, BumpMap, HeightMap, ParallaxMap, TangentFrames
 from api_schemas.solid import is_carved
+from api_schemas.surface_spec import SurfaceSpec
 from worker.images.relief import Decoded, Flat, Normals, Preparation, Slopes
 from worker.rendering.lookups import turn
 from worker.rendering.shading_layout import ReliefLayout

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 from typing import Literal
 
-from api_schemas.families import AlphaMode
 from api_schemas.maps import Filter
+from api_schemas.surface_spec import AlphaMode
 from worker.rendering.calls import Call
 from worker.rendering.samplers import Sampling
 from worker.rendering.textures import TextureFormat
