@@ -4,15 +4,18 @@ import numpy as np
 import pytest
 from pydantic import TypeAdapter, ValidationError
 
+from api_schemas.by_example import MixedSpec
+from api_schemas.language import FAMILIES
 from api_schemas.members import Texture
 from tests.growing import grow, noise, upload
-from tests.worker.synthesis.test_materials_by_example import GROWING, SMALL
+from tests.worker.synthesis.test_materials_by_example import SMALL
 from worker.errors import RenderError
 from worker.images.image import Image
 from worker.synthesis.by_example.exemplar import Exemplar
 from worker.synthesis.by_example.task import Task, levels
 from worker.synthesis.by_example.windows import whole_windows
 
+GROWING = sorted(name for name, spec in FAMILIES["textures"].items() if issubclass(spec, MixedSpec))
 RED, BLUE = (np.full((24, 24, 3), color, np.float32) for color in ((1, 0, 0), (0, 0, 1)))
 
 
