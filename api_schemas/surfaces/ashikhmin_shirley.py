@@ -14,6 +14,7 @@ class AshikhminShirleySpec(SurfaceSpec):
     """Brushed and varnished things: an elliptical highlight that brightens at grazing angles."""
 
     revision: ClassVar[int] = 2
+    streaks: ClassVar[bool] = True
     sums_sky: ClassVar[bool] = True
     source: ClassVar[str] = "Ashikhmin and Shirley, 2000"
     equation: ClassVar[str] = (

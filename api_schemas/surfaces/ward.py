@@ -14,6 +14,7 @@ class WardSpec(SurfaceSpec):
     """Light scattered by scratches: an elliptical highlight, fitted to measurements."""
 
     revision: ClassVar[int] = 2
+    streaks: ClassVar[bool] = True
     sums_sky: ClassVar[bool] = True
     source: ClassVar[str] = "Ward, 1992"
     equation: ClassVar[str] = (

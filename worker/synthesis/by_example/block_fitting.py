@@ -98,7 +98,7 @@ class _Choice:
         if barred.all():
             barred = ~self._free
         scale = np.median(costs) if beside else 1.0
-        # A block holds whole patches: fewer fit than windows of its size
+        # Blocks of patches reach beyond blocks of their corners: fewer of them fit
         down, across = self._free.shape
         uses = self._uses.of_windows(self._size)[:down, :across]
         scores = costs + scale * (_EVENNESS * uses + _CHANCE * chance)
