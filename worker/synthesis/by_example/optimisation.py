@@ -68,7 +68,7 @@ def optimise(
     Args:
         task: What is to be made of what.
         report: Told how far it is.
-        show: Given what has been found so far, on coarse levels for less pixels.
+        show: Given what has been found so far, in the same way; on coarse levels for less pixels.
     """
     steps = levels(task)
     work = [_rounds(level) * level.fixed.size for level in steps]
@@ -84,9 +84,11 @@ def optimise(
             done = sum(work[: level.depth]) + min(turn, rounds) * level.fixed.size
             report(done / sum(work), name)
             state.advance(turn)
-            if show is not None and not level.fixed.any():
+            if show is not None:
                 limits = np.array(task.usable.shape, np.int32) - 1
-                show(np.minimum(state.place * 2 ** (len(steps) - 1 - level.depth), limits))
+                so_far = np.minimum(state.place * 2 ** (len(steps) - 1 - level.depth), limits)
+                so_far[level.fixed] = -1
+                show(so_far)
     state.place[steps[-1].fixed] = -1
     return state.place
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, TypeVar
 
 import numpy as np
 
@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
     Integers = NDArray[np.int32]
     Pixels = NDArray[np.float32]
+
+Kind = TypeVar("Kind", bound=np.generic)
 
 
 def finished(
@@ -107,9 +109,9 @@ def source_layer(place: Integers, layout: SideBySide) -> NDArray[np.float32]:
     return np.asarray(layer, np.float32)
 
 
-def nearest(values: NDArray[np.float32], size: tuple[int, int]) -> NDArray[np.float32]:
+def nearest(values: NDArray[Kind], size: tuple[int, int]) -> NDArray[Kind]:
     """Bring coordinates to another (width, height): means of them would be other places."""
     height, width = values.shape[:2]
     rows = (2 * np.arange(size[1]) + 1) * height // (2 * size[1])
     columns = (2 * np.arange(size[0]) + 1) * width // (2 * size[0])
-    return np.asarray(values[rows[:, np.newaxis], columns], np.float32)
+    return np.asarray(values[rows[:, np.newaxis], columns])
