@@ -56,6 +56,7 @@ TABLE: Final[Mapping[str, tuple[int, str]]] = {
     "coordinates_unsuited": (409, "These coordinates cannot be used there"),
     "coordinates_missing": (409, "A mesh lacks the texture coordinates that are needed"),
     "mipmaps_need_exr": (409, "A PNG holds one size only"),
+    "mipmaps_need_one_part": (409, "A file of several parts holds one size of each"),
     "layers_need_exr": (409, "A PNG shows one layer only"),
     "layer_unknown": (409, "The technique has no such layer"),
     "volume_without_box": (409, "What fills a box has none"),
