@@ -38,7 +38,8 @@ class FromExemplarSpec(TextureSpec):
     )
     exemplar_mask: Annotated["Texture | None", LIKE_EXEMPLAR, DATA] = Field(
         default=None,
-        description="Where its first channel is below 0.5, the exemplar is not copied.",
+        description="Where its first channel is below 0.5, the exemplar is not copied. Of another "
+        "size, it is brought to the exemplar's.",
     )
     picture: Annotated["Texture | None", LIKE_EXEMPLAR] = Field(
         default=None,
@@ -126,7 +127,7 @@ class KeepingSpec(GrownMaterialSpec):
     keep: Annotated["Texture | None", LIKE_RESULT] = Field(
         default=None,
         description="A picture parts of which are finished: they stay as they are, and the texture "
-        "grows around them.",
+        "grows around them. Of another size, it is brought to the result's.",
     )
     keep_mask: Annotated["Texture | None", LIKE_RESULT, DATA] = Field(
         default=None,
@@ -141,7 +142,8 @@ class GuidedSpec(KeepingSpec):
     guide: Annotated["Texture | None", LIKE_RESULT] = Field(
         default=None,
         description="A picture the result follows: where it is like a place of exemplar_guide, "
-        "that place of the exemplar is preferred.",
+        "that place of the exemplar is preferred. Of another size, it is brought to the "
+        "result's.",
     )
     exemplar_guide: Annotated["Texture | None", LIKE_EXEMPLAR] = Field(
         default=None, description="What the guide is compared with; by default the exemplar itself."

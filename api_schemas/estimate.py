@@ -216,7 +216,7 @@ def _seconds_per_look(item: MAPS) -> float:
     if item.filter == "formula":
         once = sum(_seconds_per_formula(part) for _, part in parts(item.texture))
     else:
-        once = SECONDS_PER_MAP_SAMPLE[item.filter]
+        once = item.units * SECONDS_PER_MAP_SAMPLE[item.filter]
     return once * (3 if isinstance(item.coordinates, TriplanarSpec) else 1)
 
 
@@ -281,7 +281,8 @@ class _WornTextures:
                 self._made.add(stored)
                 self.making = max(self.making, at_once(item, texels))
                 cost += storing(item, texels)
-            if (program := f"{picture} {item.filter} {item.wrap}") not in self._made:
+            joins = list(item.joins) if isinstance(item, Cookie) else item.wrap
+            if (program := f"{picture} {item.filter} {joins}") not in self._made:
                 self._made.add(program)
                 cost += Cost(SECONDS_TO_COMPILE_A_MAP)
         return cost

@@ -50,9 +50,6 @@ def _layout(mapped: Map, pointer: str) -> Iterator[Obstacle]:
             f"{mapped.coordinates.technique} coordinates are a place on the picture already; "
             "a layout needs a direction",
         )
-    if (mistake := layout.mistake()) is not None:
-        field, message = mistake
-        yield Obstacle("layout_impossible", f"{pointer}/layout/{field}", message)
     if isinstance(layout, CubeSpec):
         if mapped.transform != TextureTransform():
             yield Obstacle(

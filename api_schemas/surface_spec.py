@@ -22,6 +22,9 @@ class SurfaceSpec(TechniqueSpec):
     """Whether it is what is in a box, and not its sides: no other mesh may wear it, and it keeps no
     light from what is behind it."""
 
+    streaks: ClassVar[bool] = False
+    """Whether its highlights may be longer in one direction than in others."""
+
     sums_sky: ClassVar[bool] = False
     """Whether its formula may be added up over all directions that light comes from."""
 
@@ -74,6 +77,13 @@ class SurfaceSpec(TechniqueSpec):
     def needs_tangents(self) -> bool:
         """Whether it looks different along u and along v, so that the mesh's tangents matter."""
         return False
+
+    @property
+    def is_streaked(self) -> bool:
+        """Whether its highlights are longer in one direction, by themselves or by fine relief."""
+        reliefs = (self.normal, self.bump, self.height)
+        grooved = any(relief and relief.fine_detail == "streaks" for relief in reliefs)
+        return self.needs_tangents or (self.streaks and grooved)
 
     @property
     def sky_lookups(self) -> int:

@@ -15,6 +15,7 @@ class AshikhminShirleySpec(ScratchedSpec):
     """Brushed and varnished things: an elliptical highlight that brightens at grazing angles."""
 
     revision: ClassVar[int] = 2
+    streaks: ClassVar[bool] = True
     sums_sky: ClassVar[bool] = True
     source: ClassVar[str] = "Ashikhmin and Shirley, 2000"
     equation: ClassVar[str] = (

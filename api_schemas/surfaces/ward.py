@@ -15,6 +15,7 @@ class WardSpec(ScratchedSpec):
     """Light scattered by scratches: an elliptical highlight, fitted to measurements."""
 
     revision: ClassVar[int] = 2
+    streaks: ClassVar[bool] = True
     sums_sky: ClassVar[bool] = True
     source: ClassVar[str] = "Ward, 1992"
     equation: ClassVar[str] = (

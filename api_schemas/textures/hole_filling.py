@@ -28,7 +28,8 @@ class HoleFillingSpec(MaterialSpec):
 
     technique: Literal["hole_filling"]
     hole: Annotated[Texture, LIKE_EXEMPLAR, DATA] = Field(
-        description="Where its first channel is at least 0.5, the picture is made anew."
+        description="Where its first channel is at least 0.5, the picture is made anew. Of another "
+        "size, it is brought to the exemplar's."
     )
 
     def cost_from(self, within: Mapping[str, int], pixels: int) -> Cost:

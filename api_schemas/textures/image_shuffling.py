@@ -28,7 +28,8 @@ class ImageShufflingSpec(MaterialSpec):
 
     technique: Literal["image_shuffling"]
     region: Annotated[Texture, LIKE_EXEMPLAR, DATA] = Field(
-        description="Where its first channel is at least 0.5, the picture moves."
+        description="Where its first channel is at least 0.5, the picture moves. Of another size, "
+        "it is brought to the exemplar's."
     )
     shift: Annotated[list[Shift], Field(min_length=2, max_length=2)] = Field(
         description="How many pixels it moves to the right, and down."

@@ -118,7 +118,7 @@ def shade(
             PictureLayout(picture.sampling, picture.texture.format) for picture in pictures
         ),
         tables=tuple(tables),
-        streaked=surface.needs_tangents,
+        streaked=surface.is_streaked,
     )
     uniforms = plan.uniforms | plan.lookups.uniforms()
     return Shading(layout, uniforms, pictures, surface.double_sided)

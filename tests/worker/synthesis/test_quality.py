@@ -27,6 +27,10 @@ def test_a_seam_is_the_step_across_the_border_beside_the_largest_inside(turned):
     assert seam(slope.swapaxes(0, 1) if turned else slope) == pytest.approx(7)
 
 
+def test_a_seam_like_the_sharpest_edge_inside_is_not_seen():
+    assert seam(features(np.tile([30, 30, 30, 30, 0, 0, 0], (6, 1)))) == pytest.approx(1)
+
+
 def test_what_tiles_has_no_seam_and_what_is_flat_none_either():
     waves = features(np.tile([0, 10, 20, 10], (6, 3)))
 

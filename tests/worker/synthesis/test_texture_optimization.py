@@ -141,3 +141,18 @@ def test_there_is_something_to_see_before_it_is_finished():
     assert widths == sorted(widths)
     assert (widths[0], widths[-1]) == (64, 128)
     assert all(colours(image.pixels) <= colours(exemplar) for image in seen)
+
+
+def test_what_is_seen_before_is_of_all_the_exemplar():
+    # Red tells the row of a pixel, green its column
+    exemplar, seen = noise(64, 64), []
+    exemplar[..., 0], exemplar[..., 1] = np.indices((64, 64)) / 63
+
+    grow(exemplar, (128, 96), show=seen.append)
+
+    for image in seen:
+        places = image.pixels[..., :2]
+        assert places.min() < 0.2
+        assert places.max() > 0.8
+        assert 0.3 < places.mean() < 0.7
+        assert (places == 1).mean() < 0.1
