@@ -52,6 +52,7 @@ def synthesize(
         guides=wishes.guides,
         variety=spec.variety,
         longest_copy=0.5,
+        smallest=exemplar.smallest,
     )
     if wishes.keep is not None:
         kept = _compared(exemplar.matching(wishes.keep), spec.outlines, wishes.share)

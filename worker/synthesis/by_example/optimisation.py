@@ -135,7 +135,8 @@ class _Search:
             limits = (self._allowed.shape[0], self._allowed.shape[1])
             blocks = random_blocks(grid, limits, max(grid.side, min(height, width) // 2), seed, use)
         else:
-            size = (max(grid.side, int(_BLOCK * height)), max(grid.side, int(_BLOCK * width)))
+            tall, wide = self._smallest()
+            size = (max(grid.side, int(_BLOCK * tall)), max(grid.side, int(_BLOCK * wide)))
             blocks = fitting_blocks(grid, source, self._allowed, size, seed, use)
         self._field = Field.of(*self._onto_allowed(*blocks))
         self._active = self._needed
@@ -226,7 +227,7 @@ class _Search:
         if self._task.longest_copy is None:
             return False
         share = self._task.longest_copy * room
-        shape, wraps = self._level.usable.shape, self._task.tileable
+        shape, wraps = self._smallest(), self._task.tileable
         for cut in (1.0, _CUT):
             down, across = (int(share * cut * length) for length in shape)
             if min(down, across) <= self._grid.side:
@@ -248,6 +249,11 @@ class _Search:
             self._grid.stride,
             NONE_BARRED if self._task.longest_copy is None else self._barred,
         )
+
+    def _smallest(self) -> tuple[float, float]:
+        """Return height and width of the smallest exemplar."""
+        (height, width), share = self._level.usable.shape, self._task.smallest
+        return height * share[0], width * share[1]
 
     def _use(self) -> NDArray[np.float32]:
         """Return how often each source patch is used, as a multiple of its share."""
