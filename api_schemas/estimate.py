@@ -40,7 +40,7 @@ from api_schemas.solid import is_carved, worn_depth
 from api_schemas.stored_cost import at_once, form_of, storing
 from api_schemas.surface_spec import SurfaceSpec
 from api_schemas.textures.image import ImageSpec
-from api_schemas.walk import BRANCHES, outermost, parts
+from api_schemas.walk import BRANCHES, fields_within, outermost, parts
 
 SECONDS_PER_SHADED_SAMPLE = 6e-8
 SECONDS_PER_LIGHT_SAMPLE = 1e-8
@@ -97,14 +97,13 @@ def _textures(value: object, facts: Mapping[str, AssetFacts], size: Size) -> Cos
         if isinstance(texture, ImageSpec) and (texels := _texels(texture, facts)):
             cost += Cost(texels * SECONDS_PER_TEXEL, texels * BYTES_PER_TEXEL)
         within: dict[str, Size] = {}
-        for name in type(texture).model_fields:
-            inner = getattr(texture, name)
+        for name, _, inner in fields_within(texture):
             if isinstance(inner, BRANCHES):
                 sides = size_within(texture, name, size, measure)
                 within[name] = sides
                 cost += _textures(inner, facts, sides)
         if isinstance(texture, FromExemplarSpec):
-            cost += texture.cost_at(within, math.prod(size))
+            cost += texture.cost_of(within, math.prod(size))
         else:
             cost += texture.cost(math.prod(size))
     return cost

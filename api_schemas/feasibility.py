@@ -111,8 +111,12 @@ def _slices(request: TextureRequest) -> Iterator[Obstacle]:
         yield Obstacle("texture_not_solid", place, f"{part.technique} does not fill space")
     if output.layers:
         yield Obstacle("layer_unknown", "/output/layers", "a solid has no layers of its own")
-    if output.arrangement == "layers" and output.format != "exr":
-        yield Obstacle("layers_need_exr", "/output/arrangement", "a PNG holds no slices as layers")
+    if output.arrangement != "atlas" and output.format != "exr":
+        message = f"a PNG holds no slices as {output.arrangement}"
+        yield Obstacle("layers_need_exr", "/output/arrangement", message)
+    if output.arrangement == "parts" and output.mipmaps:
+        message = "a file of several parts holds one size of each"
+        yield Obstacle("mipmaps_need_one_part", "/output/mipmaps", message)
     if max(output.file_size) > SIDE_MAX:
         width, height = output.file_size
         yield Obstacle(

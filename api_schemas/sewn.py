@@ -7,7 +7,7 @@ from typing import Annotated, ClassVar
 from pydantic import Field
 
 from api_schemas.base import WHOLE
-from api_schemas.by_example import GrownMaterialSpec
+from api_schemas.by_example import MixedSpec
 from api_schemas.cost import Cost
 from api_schemas.own_size import Size
 
@@ -32,10 +32,10 @@ Overlap = Annotated[
 ]
 
 
-class SewnSpec(GrownMaterialSpec):
+class SewnSpec(MixedSpec):
     """Sews squares of an exemplar together, as they lie or turned and mirrored."""
 
-    layers: ClassVar[tuple[str, ...]] = (*GrownMaterialSpec.layers, "turn")
+    layers: ClassVar[tuple[str, ...]] = (*MixedSpec.layers, "turn")
 
     block: Block = 36
     overlap: Overlap = 1 / 6

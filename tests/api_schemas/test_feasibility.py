@@ -222,6 +222,17 @@ def test_a_layer_that_a_texture_does_not_tell_is_named():
             {"slices": 2, "arrangement": "layers", "format": "png"},
             [("layers_need_exr", "/output/arrangement")],
         ),
+        ({"technique": "granite"}, {"slices": 9, "arrangement": "parts", "format": "exr"}, []),
+        (
+            {"technique": "perlin"},
+            {"slices": 2, "arrangement": "parts", "format": "png"},
+            [("layers_need_exr", "/output/arrangement")],
+        ),
+        (
+            {"technique": "perlin"},
+            {"slices": 2, "arrangement": "parts", "format": "exr", "mipmaps": True},
+            [("mipmaps_need_one_part", "/output/mipmaps")],
+        ),
         (
             {"technique": "perlin"},
             {"slices": 1024, "size": [1024, 512]},

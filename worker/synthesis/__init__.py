@@ -41,7 +41,7 @@ from api_schemas.maps import DATA
 from api_schemas.own_size import Size, size_within
 from api_schemas.parameters import ParameterMap
 from api_schemas.textures.image import ImageSpec
-from api_schemas.walk import is_in_space, meaning_of
+from api_schemas.walk import fields_within, is_in_space, meaning_of
 from worker.closed_form import ClosedForm
 from worker.images.volume import Volume
 from worker.numba_kernel import compiled_once
@@ -246,8 +246,7 @@ def _slots(spec: TextureSpec, meaning: Meaning) -> dict[str, tuple[TextureSpec, 
     if isinstance(spec, PresetSpec):
         return {"composed": (spec.composed(), meaning)}
     slots = {}
-    for name, field in type(spec).model_fields.items():
-        value = getattr(spec, name)
+    for name, field, value in fields_within(spec):
         if isinstance(value, TextureSpec) and not is_in_space(field):
             slots[name] = (value, meaning_of(field, meaning))
         elif isinstance(value, ParameterMap):

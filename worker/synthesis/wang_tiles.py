@@ -7,6 +7,7 @@ Corners at the rim of the picture are those opposite.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -93,11 +94,11 @@ def tiles_of(
     lengths = [n if n >= side else n + side - 1 for n in exemplar.shape]
     rows, columns = (np.arange(n) % of for n, of in zip(lengths, exemplar.shape, strict=True))
     whole = np.ix_(rows, columns)
-    around = Exemplar(
-        Image(exemplar.image.pixels[whole], exemplar.image.meaning),
-        exemplar.usable[whole],
-        exemplar.space,
-        exemplar.features[whole],
+    around = replace(
+        exemplar,
+        image=Image(exemplar.image.pixels[whole], exemplar.image.meaning),
+        usable=exemplar.usable[whole],
+        features=exemplar.features[whole],
     )
     if not whole_windows(around.usable, (side, side)).any():
         raise RenderError(

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from worker.synthesis.by_example.pyramid import doubled, halved
+from worker.synthesis.by_example.pyramid import halved
 from worker.synthesis.by_example.surroundings import known_around
 
 
@@ -31,12 +31,6 @@ def test_a_pixel_of_half_the_size_is_the_mean_of_what_is_known():
 
     assert half[..., 0].tolist() == [[40, 40], [40, 40]]
     assert found.tolist() == [[True, False], [True, False]]
-
-
-def test_doubled_places_lie_beside_each_other():
-    place = np.indices((3, 4), np.int32)
-
-    assert (doubled(place, (7, 8))[:, :6] == np.indices((7, 8))[:, :6]).all()
 
 
 @pytest.mark.parametrize(("wraps", "count"), [(True, 9), (False, 4)])
