@@ -21,8 +21,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    Mask = NDArray[np.bool_]
-    Integers = NDArray[np.int32]
+    from worker.synthesis.by_example.arrays import Integers, Mask
 
 Number = TypeVar("Number", bound=np.generic)
 

@@ -33,9 +33,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    Bytes = NDArray[np.uint8]
-    Mask = NDArray[np.bool_]
-    Integers = NDArray[np.int32]
+    from worker.synthesis.by_example.arrays import Integers
 
 _FIRST_TRIES = 4
 _TRIES = 2

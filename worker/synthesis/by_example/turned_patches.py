@@ -18,8 +18,8 @@ from worker.synthesis.by_example.patch_match import NEVER
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    Bytes = NDArray[np.uint8]
-    Mask = NDArray[np.bool_]
+    from worker.synthesis.by_example.arrays import Bytes, Mask
+
     Integers = NDArray[np.int64]
 
 PIXEL, TURN, OCTAVE = 256, 1024, 32
