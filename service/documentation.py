@@ -126,6 +126,8 @@ OBSTACLE_CODES: Final = (
     "reaction_diverged",
     "environment_texels",
     "exemplar_unusable",
+    "exemplar_maps_differ",
+    "options_exclude_each_other",
     "coordinates_unsuited",
     "coordinates_missing",
     "mipmaps_need_exr",
