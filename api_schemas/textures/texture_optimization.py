@@ -17,7 +17,7 @@ class TextureOptimizationSpec(GuidedSpec):
     No line of pixels longer than half of the exemplar is copied, where it has room for others.
     """
 
-    revision: ClassVar[int] = 2
+    revision: ClassVar[int] = 3
     source: ClassVar[str] = (
         "Kwatra, Essa, Bobick and Kwatra, 2005; Han et al., 2006; Kaspar et al., 2015"
     )
@@ -35,7 +35,7 @@ class TextureOptimizationSpec(GuidedSpec):
         "more brings rare things back more often.",
     )
     outlines: Annotated[float, Field(ge=0, le=1)] = Field(
-        default=1.0,
+        default=0.25,
         description="How much the distance to edges counts beside colour: it keeps stones and "
         "bricks whole.",
     )

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     Mask = NDArray[np.bool_]
     Integers = NDArray[np.int32]
 
-SIDES = (9, 9, 7)
-"""Of patches on each level from coarse to fine, then as on the last one named."""
+PATCH_SIDE = 9
+"""Of patches in pixels on every level, where source and target are large enough."""
 _COARSEST_SIDE = 24
 _LEAST_PATCHES = 16
 
@@ -76,11 +76,6 @@ class Level(NamedTuple):
     fixed: Mask
     depth: int
 
-    @property
-    def patch_side(self) -> int:
-        """Side of a patch in pixels, where source and target are large enough."""
-        return SIDES[min(self.depth, len(SIDES) - 1)]
-
 
 def levels(task: Task) -> list[Level]:
     """Return a task at all sizes, from coarse to fine.
@@ -120,4 +115,4 @@ def _joined(task: Task) -> tuple[Bytes, Mask, Bytes, Mask]:
 
 
 def _enough(usable: Mask) -> bool:
-    return int(whole_windows(usable, (SIDES[0], SIDES[0])).sum()) >= _LEAST_PATCHES
+    return int(whole_windows(usable, (PATCH_SIDE, PATCH_SIDE)).sum()) >= _LEAST_PATCHES
