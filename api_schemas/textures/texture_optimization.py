@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Annotated, ClassVar, Literal
 
@@ -9,6 +10,7 @@ from pydantic import Field
 
 from api_schemas.by_example import GuidedSpec
 from api_schemas.cost import Cost
+from api_schemas.own_size import Size
 
 
 class TextureOptimizationSpec(GuidedSpec):
@@ -41,9 +43,18 @@ class TextureOptimizationSpec(GuidedSpec):
     )
 
     def cost_from(self, within: Mapping[str, int], pixels: int) -> Cost:
-        """All levels together are a third larger than the finest, whose patches are fewer."""
-        grown = self.size[0] * self.size[1]
+        """Of a square exemplar."""
+        side = math.isqrt(within["exemplar"])
+        return self.cost_at({"exemplar": (side, side)}, pixels)
+
+    def cost_at(self, sides: Mapping[str, Size], pixels: int) -> Cost:
+        """The finest level, and the coarsest, which is searched longest.
+
+        Sizes are halved until the exemplar's short side is 24 to 47 pixels: of a small one little.
+        """
+        grown, exemplar = math.prod(self.size), math.prod(sides["exemplar"])
+        halvings = int(math.log2(max(24, min(sides["exemplar"])) / 24))
         return Cost(
-            seconds=grown * 8e-6 + within["exemplar"] * 2e-6 + pixels * 2e-8,
-            bytes=grown * 135.0 + within["exemplar"] * 200.0 + pixels * 16.0,
+            seconds=grown * (2.2e-6 + 8e-5 / 4**halvings) + exemplar * 2e-6 + pixels * 2e-8,
+            bytes=grown * 100.0 + exemplar * 200.0 + pixels * 16.0,
         )

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     Mask = NDArray[np.bool_]
     Integers = NDArray[np.int64]
 
-_EVENNESS, _CHANCE = 1.0, 0.15
+_EVENNESS, _CHANCE = 2.0, 0.15
 """What using each pixel once more, and mere chance, weigh beside how well a block continues."""
 _SWEEPS = 2
 

@@ -46,9 +46,9 @@ if TYPE_CHECKING:
     Mask = NDArray[np.bool_]
     Integers = NDArray[np.int32]
 
-_ROUNDS = (16, 10, 6, 4)
+_ROUNDS = (16, 10, 4, 2)
 _RADII = (65536, 65536, 32, 8)
-_STARTS = 8  # half of them where the coarsest level is large
+_STARTS = 8  # half of them where that is more pixels than
 _STARTED = 2**15
 _HALVED_AT = (2, 4)  # rounds before which the worse half of them is given up
 _DENSE_BELOW = 160
@@ -71,7 +71,7 @@ def optimise(
     Args:
         task: What is to be made of what.
         report: Told how far it is.
-        show: Given what has been found so far, on coarse levels for less pixels.
+        show: Given what has been found on each level, on coarse ones for less pixels.
     """
     steps = levels(task)
     work = [_rounds(level) * level.fixed.size for level in steps]
@@ -87,9 +87,9 @@ def optimise(
             done = sum(work[: level.depth]) + min(turn, rounds) * level.fixed.size
             report(done / sum(work), name)
             state.advance(turn)
-            if show is not None and not level.fixed.any():
-                limits = np.array(task.usable.shape, np.int32) - 1
-                show(np.minimum(state.place * 2 ** (len(steps) - 1 - level.depth), limits))
+        if show is not None and not level.fixed.any():
+            limits = np.array(task.usable.shape, np.int32) - 1
+            show(np.minimum(state.place * 2 ** (len(steps) - 1 - level.depth), limits))
     state.place[steps[-1].fixed] = -1
     return state.place
 

@@ -87,9 +87,11 @@ def source_layer(place: Integers, shape: tuple[int, int]) -> NDArray[np.float32]
     """Return u and v in the exemplar of each pixel's source, (height, width, 2); 0 for kept."""
     height, width = shape
     rows, columns = np.moveaxis(place, -1, 0)
-    layer = np.stack([(columns + 0.5) / width, 1 - (rows + 0.5) / height], axis=-1)
+    layer = np.empty((*rows.shape, 2), np.float32)
+    layer[..., 0] = (columns + 0.5) / width
+    layer[..., 1] = 1 - (rows + 0.5) / height
     layer[rows < 0] = 0
-    return np.asarray(layer, np.float32)
+    return layer
 
 
 def nearest(values: NDArray[np.float32], size: tuple[int, int]) -> NDArray[np.float32]:

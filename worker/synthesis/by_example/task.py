@@ -83,15 +83,19 @@ def levels(task: Task) -> list[Level]:
     Halving ends before a side falls below 24 pixels, or too few patches could be copied.
     """
     source, usable, target, fixed = _joined(task)
-    everywhere = np.ones(fixed.shape, bool)
     voted = task.source.shape[2]
     found = []
     while True:
         found.append((np.ascontiguousarray(source), usable, target, fixed))
         source, usable = halved(source, usable)
-        guides, _ = halved(target[..., voted:], everywhere, wraps=task.tileable)
-        colours, fixed = halved(target[..., :voted], fixed, wraps=task.tileable)
-        target, everywhere = np.concatenate([colours, guides], axis=-1), np.ones(fixed.shape, bool)
+        if task.guides is None and not fixed.any():
+            # Nothing is known of the target but its size, and it may be large
+            height, width = (max(1, length // 2) for length in fixed.shape)
+            target, fixed = target[:height, :width], fixed[:height, :width]
+        else:
+            guides, _ = halved(target[..., voted:], np.ones(fixed.shape, bool), wraps=task.tileable)
+            colours, fixed = halved(target[..., :voted], fixed, wraps=task.tileable)
+            target = np.concatenate([colours, guides], axis=-1)
         small = min(*usable.shape, *fixed.shape) < _COARSEST_SIDE
         if small or not _enough(usable) or fixed.all():
             return [Level(*parts, depth) for depth, parts in enumerate(reversed(found))]
