@@ -6,11 +6,11 @@ from dataclasses import dataclass, replace
 
 from api_schemas.assets import AssetFacts, ImageFacts, ModelFacts
 from api_schemas.cost import Cost
-from api_schemas.families import SurfaceSpec
 from api_schemas.geometry import Vector3
 from api_schemas.meshes import Mesh
 from api_schemas.model_mesh import ModelMesh
 from api_schemas.relief import Displacement
+from api_schemas.surface_spec import SurfaceSpec
 
 SECONDS_PER_TRIANGLE = 4e-7
 BYTES_PER_TRIANGLE = 200

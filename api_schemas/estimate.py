@@ -26,7 +26,7 @@ from api_schemas.coordinates.triplanar import TriplanarSpec
 from api_schemas.cost import Cost
 from api_schemas.coverage import coverage, stand_in
 from api_schemas.environment import SKY_LAMPS
-from api_schemas.families import SurfaceSpec, TextureSpec
+from api_schemas.families import TextureSpec
 from api_schemas.geometry import IDENTITY, Affine, Vector3, affine
 from api_schemas.light_cost import cookies_of, seconds_of_shadows, shadow_maps
 from api_schemas.lights import LIGHTS_MAX
@@ -38,8 +38,9 @@ from api_schemas.scene import Node
 from api_schemas.sky import SKY_SECONDS_PER_SAMPLE, sky_textures, surroundings_cost
 from api_schemas.solid import is_carved, worn_depth
 from api_schemas.stored_cost import at_once, form_of, storing
+from api_schemas.surface_spec import SurfaceSpec
 from api_schemas.textures.image import ImageSpec
-from api_schemas.walk import BRANCHES, outermost, parts
+from api_schemas.walk import BRANCHES, fields_within, outermost, parts
 
 SECONDS_PER_SHADED_SAMPLE = 6e-8
 SECONDS_PER_LIGHT_SAMPLE = 1e-8
@@ -96,14 +97,13 @@ def _textures(value: object, facts: Mapping[str, AssetFacts], size: Size) -> Cos
         if isinstance(texture, ImageSpec) and (texels := _texels(texture, facts)):
             cost += Cost(texels * SECONDS_PER_TEXEL, texels * BYTES_PER_TEXEL)
         within: dict[str, Size] = {}
-        for name in type(texture).model_fields:
-            inner = getattr(texture, name)
+        for name, _, inner in fields_within(texture):
             if isinstance(inner, BRANCHES):
                 sides = size_within(texture, name, size, measure)
                 within[name] = sides
                 cost += _textures(inner, facts, sides)
         if isinstance(texture, FromExemplarSpec):
-            cost += texture.cost_at(within, math.prod(size))
+            cost += texture.cost_of(within, math.prod(size))
         else:
             cost += texture.cost(math.prod(size))
     return cost
@@ -215,7 +215,7 @@ def _seconds_per_look(item: MAPS) -> float:
     if item.filter == "formula":
         once = sum(_seconds_per_formula(part) for _, part in parts(item.texture))
     else:
-        once = SECONDS_PER_MAP_SAMPLE[item.filter]
+        once = item.units * SECONDS_PER_MAP_SAMPLE[item.filter]
     return once * (3 if isinstance(item.coordinates, TriplanarSpec) else 1)
 
 
@@ -280,7 +280,8 @@ class _WornTextures:
                 self._made.add(stored)
                 self.making = max(self.making, at_once(item, texels))
                 cost += storing(item, texels)
-            if (program := f"{picture} {item.filter} {item.wrap}") not in self._made:
+            joins = list(item.joins) if isinstance(item, Cookie) else item.wrap
+            if (program := f"{picture} {item.filter} {joins}") not in self._made:
                 self._made.add(program)
                 cost += Cost(SECONDS_TO_COMPILE_A_MAP)
         return cost

@@ -8,17 +8,13 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Annotated, ClassVar, Literal, Self
-
-from pydantic import Field
+from typing import ClassVar, Literal
 
 from api_schemas.base import Schema
 from api_schemas.cost import Cost
-from api_schemas.maps import LightMap, MappableNonNegative, NormalMap, Wrap
-from api_schemas.relief import BumpMap, HeightMap, ParallaxMap, TangentFrames
 
 Meaning = Literal["colour", "data"]
-AlphaMode = Literal["opaque", "mask", "blend"]
+Wrap = Literal["repeat", "mirror", "clamp", "border"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,77 +149,3 @@ class LayoutSpec(TechniqueSpec):
     def mistake(self) -> tuple[str, str] | None:
         """Return which field is impossible and why, if JSON Schema could not say it."""
         return None
-
-
-STREAK_LOOKUPS = 12
-"""How often what is brushed looks at an environment; lib/streak.glsl has the same number."""
-
-
-class SurfaceSpec(TechniqueSpec):
-    """Says how a surface sends light to the eye, and how much of what is behind it is seen."""
-
-    fills_box: ClassVar[bool] = False
-    """Whether it is what is in a box, and not its sides: no other mesh may wear it, and it keeps no
-    light from what is behind it."""
-
-    sums_sky: ClassVar[bool] = False
-    """Whether its formula may be added up over all directions that light comes from."""
-
-    opacity: MappableNonNegative = Field(
-        default=1.0,
-        description="How much of what is behind is hidden, where alpha_mode is mask or blend.",
-    )
-    alpha_mode: AlphaMode = Field(
-        default="opaque",
-        description="Whether opacity is ignored, cuts holes, or lets through what is behind. What "
-        "lets light through dims all of its own, highlights and emission too, as in glTF, and is "
-        "drawn after everything else, the farthest middle first.",
-    )
-    alpha_cutoff: Annotated[float, Field(ge=0, le=1)] = Field(
-        default=0.5, description="Opacity below which there is a hole, where alpha_mode is mask."
-    )
-    double_sided: bool = Field(
-        default=True, description="Whether the inner side is drawn as well as the outer one."
-    )
-    normal: NormalMap | None = Field(
-        default=None, description="Tilts the surface in fine detail: a map of normals."
-    )
-    bump: BumpMap | None = Field(
-        default=None, description="Tilts what is there further, by two numbers for each texel."
-    )
-    height: HeightMap | None = Field(
-        default=None, description="Tilts what is there further, as the slopes of a relief do."
-    )
-    parallax: ParallaxMap | None = Field(
-        default=None,
-        description="Lets the eye look into a relief: every other map is read where the ray ends.",
-    )
-    tangents: TangentFrames = Field(
-        default="mikktspace",
-        description="Which directions normal and bump maps tilt along: those that bakers use, the "
-        "mean of the triangles round each corner, or the parallels and meridians of a globe round "
-        "the y axis. They follow the coordinates of the normal map, without one the bump map's.",
-    )
-
-    light_map: LightMap | None = Field(
-        default=None,
-        description="Baked light that arrives besides the lamps', reflected as ambient light is.",
-    )
-
-    def looks(self, lights: int) -> int:
-        """Return how often each sample reads the maps, where so many lights shine."""
-        return 1
-
-    @property
-    def needs_tangents(self) -> bool:
-        """Whether it looks different along u and along v, so that the mesh's tangents matter."""
-        return False
-
-    @property
-    def sky_lookups(self) -> int:
-        """How often it looks at an environment for one sample."""
-        return 1
-
-    def filled(self) -> Self:
-        """Return the surface with every parameter that follows another one set to its value."""
-        return self

@@ -5,10 +5,10 @@ from collections.abc import Iterator, Sequence
 from api_schemas.camera import Camera, FramedCamera, ModelCamera
 from api_schemas.cookies import COOKIES_MAX
 from api_schemas.environment import Environment, Surroundings
-from api_schemas.families import SurfaceSpec, TextureSpec
+from api_schemas.families import LayoutSpec, TextureSpec
 from api_schemas.geometry import IDENTITY, Affine, Vector3, affine, cross, length, triple
 from api_schemas.light_cost import cookies_of
-from api_schemas.lights import DirectionalLight, Light, SpotLight
+from api_schemas.lights import DirectionalLight, Light, PointLight, SpotLight
 from api_schemas.map_feasibility import formula_obstacles, map_obstacles
 from api_schemas.maps import MAPS_MAX, Map
 from api_schemas.meshes import Box
@@ -19,8 +19,9 @@ from api_schemas.requests import Request, TextureRequest
 from api_schemas.scene import NODES_MAX, Node
 from api_schemas.sky import SKY_MAPS
 from api_schemas.solid import flat_parts
+from api_schemas.surface_spec import SurfaceSpec
 from api_schemas.textures.image import ImageSpec
-from api_schemas.transforms import MatrixPlacement
+from api_schemas.transforms import MatrixPlacement, Placement
 from api_schemas.walk import deepest, escaped, parts
 
 LEVELS_MAX = 32
@@ -75,12 +76,15 @@ def _limits(request: Request) -> Iterator[Obstacle]:
         textures += isinstance(part, TextureSpec)
         nodes += isinstance(part, Node)
         if isinstance(part, SurfaceSpec):
-            maps = sum(isinstance(value, Map) for _, value in parts(part))
+            maps = sum(value.units for _, value in parts(part) if isinstance(value, Map))
             if maps > most:
                 yield Obstacle(
                     "too_many_maps", pointer, f"{maps} maps on one surface; at most {most}"
                 )
             yield from formula_obstacles(part, pointer)
+        if isinstance(part, LayoutSpec) and (mistake := part.mistake()) is not None:
+            field, message = mistake
+            yield Obstacle("layout_impossible", f"{pointer}/{field}", message)
         if isinstance(part, Map):
             yield from map_obstacles(part, pointer)
     for count, limit, things in (
@@ -107,8 +111,12 @@ def _slices(request: TextureRequest) -> Iterator[Obstacle]:
         yield Obstacle("texture_not_solid", place, f"{part.technique} does not fill space")
     if output.layers:
         yield Obstacle("layer_unknown", "/output/layers", "a solid has no layers of its own")
-    if output.arrangement == "layers" and output.format != "exr":
-        yield Obstacle("layers_need_exr", "/output/arrangement", "a PNG holds no slices as layers")
+    if output.arrangement != "atlas" and output.format != "exr":
+        message = f"a PNG holds no slices as {output.arrangement}"
+        yield Obstacle("layers_need_exr", "/output/arrangement", message)
+    if output.arrangement == "parts" and output.mipmaps:
+        message = "a file of several parts holds one size of each"
+        yield Obstacle("mipmaps_need_one_part", "/output/mipmaps", message)
     if max(output.file_size) > SIDE_MAX:
         width, height = output.file_size
         yield Obstacle(
@@ -220,6 +228,10 @@ def _light(light: Light, pointer: str) -> Iterator[Obstacle]:
         and length(triple(light.direction)) < SHORTEST_DIRECTION
     ):
         yield Obstacle("light_degenerate", f"{pointer}/direction", "the light has no direction")
+    if isinstance(light, PointLight) and light.cookie is not None:
+        shade = Placement(rotation=light.cookie.rotation)
+        if affine(shade) is None:
+            yield Obstacle("light_degenerate", f"{pointer}/cookie/rotation", "the turn is none")
     if isinstance(light, SpotLight) and light.outer_angle < light.inner_angle:
         yield Obstacle(
             "light_degenerate",

@@ -6,13 +6,8 @@ from types import ModuleType
 from typing import get_args
 
 from api_schemas import coordinates, layouts, surfaces, textures
-from api_schemas.families import (
-    CoordinatesSpec,
-    LayoutSpec,
-    SurfaceSpec,
-    TechniqueSpec,
-    TextureSpec,
-)
+from api_schemas.families import CoordinatesSpec, LayoutSpec, TechniqueSpec, TextureSpec
+from api_schemas.surface_spec import SurfaceSpec
 
 
 def specs_in(folder: ModuleType, family: type[TechniqueSpec]) -> dict[str, type[TechniqueSpec]]:

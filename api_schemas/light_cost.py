@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 
 from api_schemas.cookies import Cookie
 from api_schemas.cost import Cost
-from api_schemas.lights import AmbientLight, DirectionalLight, Light, PointLight, SpotLight
+from api_schemas.lights import AmbientLight, Light, PointLight, SpotLight
 from api_schemas.shadows import Shadow
 
 WIDEST_CONE = 1.2
@@ -44,7 +44,7 @@ def cookies_of(lights: Sequence[Light]) -> list[Cookie]:
     return [
         light.cookie
         for light in lights
-        if isinstance(light, DirectionalLight | SpotLight) and light.cookie is not None
+        if not isinstance(light, AmbientLight) and light.cookie is not None
     ]
 
 

@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from api_schemas.base import Color, NonNegative, Schema, Vector
-from api_schemas.cookies import Gobo, Slide
+from api_schemas.cookies import Gobo, Lantern, Slide
 from api_schemas.shadows import Shadow
 
 LIGHTS_MAX = 32
@@ -50,6 +50,9 @@ class PointLight(_CastingLight):
     position: Vector = Field(description="Where the light is.")
     color: Color = Field(default=[1.0, 1.0, 1.0], description="Linear colour.")
     intensity: NonNegative = Field(default=1.0, description="Brightness in W/sr.")
+    cookie: Lantern | None = Field(
+        default=None, description="A picture all round it that its light goes through."
+    )
 
 
 class SpotLight(_CastingLight):

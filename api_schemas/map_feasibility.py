@@ -3,11 +3,12 @@
 from collections.abc import Iterator
 
 from api_schemas.coordinates.triplanar import TriplanarSpec
-from api_schemas.families import SurfaceSpec, TextureSpec
+from api_schemas.families import TextureSpec
 from api_schemas.layouts.cube import CubeSpec
 from api_schemas.maps import ColorMap, Map, NumberMap, TextureTransform
 from api_schemas.obstacle import Obstacle
 from api_schemas.relief import BumpMap, HeightMap, ParallaxMap, ReliefMap
+from api_schemas.surface_spec import SurfaceSpec
 from api_schemas.walk import parts
 
 FORMULAS_MAX = 24
@@ -49,9 +50,6 @@ def _layout(mapped: Map, pointer: str) -> Iterator[Obstacle]:
             f"{mapped.coordinates.technique} coordinates are a place on the picture already; "
             "a layout needs a direction",
         )
-    if (mistake := layout.mistake()) is not None:
-        field, message = mistake
-        yield Obstacle("layout_impossible", f"{pointer}/layout/{field}", message)
     if isinstance(layout, CubeSpec):
         if mapped.transform != TextureTransform():
             yield Obstacle(

@@ -9,16 +9,13 @@ from pydantic import Field
 from typing_extensions import TypeAliasType
 
 from api_schemas.base import Angle, Color, NonNegative, Number, Pair, Schema
+from api_schemas.families import Meaning, Wrap
 from api_schemas.members import Coordinates, Layout, Texture, mappable
-
-if TYPE_CHECKING:
-    from api_schemas.families import Meaning
 
 MAPS_MAX = 24
 """Maps on one surface: with eight to spare, what OpenGL lets a shader read."""
 
-FineDetail = Literal["lost", "roughness"]
-Wrap = Literal["repeat", "mirror", "clamp", "border"]
+FineDetail = Literal["lost", "roughness", "streaks"]
 PictureFilter = Literal["nearest", "bilinear", "trilinear", "anisotropic"]
 TableFilter = Literal["ripmap", "summed_area"]
 Filter = Literal[PictureFilter, "ewa", TableFilter, "formula"]
@@ -102,6 +99,11 @@ class Map(Schema):
         "or a Kaiser-windowed sinc, which is sharper in the distance and overshoots a little.",
     )
 
+    @property
+    def units(self) -> int:
+        """How many of OpenGL's texture units it takes."""
+        return 1
+
 
 class ScaledMap(Map):
     """What is read of it is scaled and shifted."""
@@ -178,13 +180,21 @@ class NormalMap(Map):
         default="lost",
         description="What becomes of tilts that are finer than a pixel: lost, so that far things "
         "sparkle or look polished, or roughness, which makes highlights wider and dimmer, as all "
-        "the small ones together are (Toksvig, 2005).",
+        "the small ones together are (Toksvig, 2005), or streaks, which makes them so in the "
+        "directions that the small ones lean to, as grooves do (Olano and Baker, 2010). Surfaces "
+        "whose highlights are always round, and normals in object space, take roughness for "
+        "streaks.",
     )
     space: Literal["tangent", "object"] = Field(
         default="tangent",
         description="Whether the normals lean from the surface or are the shape's own, which need "
         "no directions of u and v and ignore how the picture is turned.",
     )
+
+    @property
+    def units(self) -> int:
+        """Streaks need the products of slopes as well."""
+        return 2 if self.fine_detail == "streaks" else 1
 
 
 if TYPE_CHECKING:

@@ -13,7 +13,7 @@ from typing_extensions import TypeAliasType
 from api_schemas.base import Number, Schema
 
 if TYPE_CHECKING:
-    from api_schemas.families import CoordinatesSpec, LayoutSpec, SurfaceSpec, TextureSpec
+    from api_schemas.families import CoordinatesSpec, LayoutSpec, TextureSpec
 
 
 def _json_type(value: object) -> str:
@@ -28,7 +28,7 @@ def mappable(value: Any, mapped: Any) -> Any:
     ]
 
 
-class _OneOf:
+class OneOf:
     """Chooses a member of a family by its technique.
 
     The same as a discriminator in a Field, which pydantic loses where a spec that is still being
@@ -52,11 +52,9 @@ if TYPE_CHECKING:
     Texture: TypeAlias = TextureSpec
     Coordinates: TypeAlias = CoordinatesSpec
     Layout: TypeAlias = LayoutSpec
-    Surface: TypeAlias = SurfaceSpec
     Operand: TypeAlias = float | TextureSpec
 else:
-    Texture = TypeAliasType("Texture", Annotated[Any, _OneOf("textures")])
-    Coordinates = TypeAliasType("Coordinates", Annotated[Any, _OneOf("coordinates")])
-    Layout = TypeAliasType("Layout", Annotated[Any, _OneOf("layouts")])
-    Surface = TypeAliasType("Surface", Annotated[Any, _OneOf("surfaces")])
+    Texture = TypeAliasType("Texture", Annotated[Any, OneOf("textures")])
+    Coordinates = TypeAliasType("Coordinates", Annotated[Any, OneOf("coordinates")])
+    Layout = TypeAliasType("Layout", Annotated[Any, OneOf("layouts")])
     Operand = TypeAliasType("Operand", mappable(Number, Texture))

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Discriminator, Field, Tag
 
 from api_schemas.base import WHOLE, Schema, Sha256
-from api_schemas.members import Surface
+from api_schemas.surface_spec import Surface
 
 PartName = Annotated[str, Field(max_length=256)]
 PartIndex = Annotated[int, Field(ge=0, le=2**31 - 1), WHOLE]

@@ -106,12 +106,18 @@ class TextureOutput(Output):
         description="Makes a solid texture as a volume of so many slices, the first one at w = 0; "
         "size is that of a slice.",
     )
-    arrangement: Literal["atlas", "layers"] = Field(
+    arrangement: Literal["atlas", "layers", "parts"] = Field(
         default="atlas",
         description="Where slices go: beside each other into one picture, in rows from the upper "
         "left, as nearly square as can be, what is left over 0; or into an EXR as layers "
-        "slice_0000, slice_0001 and so on, beside the first one as the picture.",
+        "slice_0000, slice_0001 and so on, beside the first one as the picture; or as parts of "
+        "these names, each a picture of its own.",
     )
+
+    @property
+    def has_parts(self) -> bool:
+        """Whether the file is one of several pictures."""
+        return self.slices is not None and self.arrangement == "parts"
 
     @property
     def columns(self) -> int:

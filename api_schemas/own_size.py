@@ -11,7 +11,7 @@ from typing import Literal
 
 from api_schemas.families import TextureSpec
 from api_schemas.textures.image import ImageSpec
-from api_schemas.walk import outermost
+from api_schemas.walk import outermost, part_with
 
 Size = tuple[int, int]
 """Width and height in pixels."""
@@ -58,11 +58,12 @@ def size_within(
 
     Args:
         texture: Of any technique.
-        name: Of its field.
+        name: Of its field, or of that of a part in a list (`fields_within`).
         size: At which it is made itself.
         measure: Tells the size of an uploaded picture.
     """
-    field = type(texture).model_fields.get(name)
+    holder, name = part_with(texture, name)
+    field = type(holder).model_fields.get(name)
     metadata = field.metadata if field else []
     rule = next((item.size for item in metadata if isinstance(item, MadeAt)), None)
     if rule is None:
@@ -70,11 +71,11 @@ def size_within(
     if rule == "result":
         return own_size(texture, measure)
     source = name if rule == "own" else "exemplar"
-    if source == "exemplar" and (wanted := getattr(texture, "exemplar_size", None)):
+    if source == "exemplar" and (wanted := getattr(holder, "exemplar_size", None)):
         width, height = wanted
         return (width, height)
     functions: Size = getattr(texture, "function_size", FUNCTION_SIZE)
-    return _size(getattr(texture, source), measure) or functions
+    return _size(getattr(holder, source), measure) or functions
 
 
 def _size(texture: TextureSpec, measure: Callable[[ImageSpec], Size]) -> Size | None:

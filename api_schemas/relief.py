@@ -41,8 +41,15 @@ class BumpMap(Map):
         default="lost",
         description="What becomes of tilts that are finer than a pixel: lost, so that far things "
         "sparkle or look polished, or roughness, which makes highlights wider and dimmer, as all "
-        "the small ones together are (Olano and Baker, 2010).",
+        "the small ones together are (Olano and Baker, 2010), or streaks, which makes them so in "
+        "the directions that the small ones lean to, as grooves do. Surfaces whose highlights are "
+        "always round take roughness for streaks.",
     )
+
+    @property
+    def units(self) -> int:
+        """Streaks need the products of slopes as well."""
+        return 2 if self.fine_detail == "streaks" else 1
 
 
 class ReliefMap(Map):
@@ -71,6 +78,16 @@ class HeightMap(ReliefMap):
         description="Whether slopes of what stands out of a round surface are those of the larger "
         "surface out there, or those of a thin skin.",
     )
+    fine_detail: FineDetail = Field(
+        default="lost",
+        description="What becomes of slopes that are finer than a pixel, those of a thin skin: "
+        "lost, roughness or streaks, as of a bump map.",
+    )
+
+    @property
+    def units(self) -> int:
+        """Whatever becomes of fine slopes needs their products."""
+        return 1 if self.fine_detail == "lost" else 2
 
 
 class ParallaxMap(ReliefMap):

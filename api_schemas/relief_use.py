@@ -9,12 +9,13 @@ from api_schemas.coordinates.cylindrical import CylindricalSpec
 from api_schemas.coordinates.normal import NormalSpec
 from api_schemas.coordinates.position import PositionSpec
 from api_schemas.coordinates.uv import UvSpec
-from api_schemas.families import CoordinatesSpec, SurfaceSpec
+from api_schemas.families import CoordinatesSpec
 from api_schemas.model_mesh import ModelMesh
 from api_schemas.obstacle import Obstacle
 from api_schemas.relief import DISPLACED_TRIANGLES_MAX, Displacement
 from api_schemas.requests import Request
 from api_schemas.scene import Node
+from api_schemas.surface_spec import SurfaceSpec
 from api_schemas.walk import parts
 
 VertexCoordinates = UvSpec | AffineUvSpec | PositionSpec | NormalSpec | CylindricalSpec

@@ -11,10 +11,10 @@ from api_schemas.camera import Camera
 from api_schemas.environment import Environment, Surroundings
 from api_schemas.lights import LIGHTS_MAX, Light
 from api_schemas.maps import MappableColor
-from api_schemas.members import Surface
 from api_schemas.meshes import Mesh
 from api_schemas.relief import Displacement
 from api_schemas.surface_maps import SurfaceMap
+from api_schemas.surface_spec import Surface
 from api_schemas.transforms import Placement, Transform
 
 NODES_MAX = 1024

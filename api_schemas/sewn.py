@@ -7,28 +7,38 @@ from typing import Annotated, ClassVar
 from pydantic import Field
 
 from api_schemas.base import WHOLE
-from api_schemas.by_example import GrownMaterialSpec
+from api_schemas.by_example import MixedSpec
 from api_schemas.cost import Cost
 from api_schemas.own_size import Size
 
-Block = Annotated[int, Field(ge=2, le=256), WHOLE]
-
-
-class SewnSpec(GrownMaterialSpec):
-    """Sews squares of an exemplar together, as they lie or turned and mirrored."""
-
-    layers: ClassVar[tuple[str, ...]] = (*GrownMaterialSpec.layers, "turn")
-
-    block: Block = Field(
-        default=36,
+Block = Annotated[
+    int,
+    Field(
+        ge=2,
+        le=256,
         description="Side of the squares in pixels, or that of the exemplar if it is smaller: "
         "larger than what must stay whole, such as a brick.",
-    )
-    overlap: Annotated[float, Field(ge=0.02, le=0.5)] = Field(
-        default=1 / 6,
-        description="How much of a square's side lies over its neighbour: more hides seams better "
-        "and shows less of each square.",
-    )
+    ),
+    WHOLE,
+]
+Overlap = Annotated[
+    float,
+    Field(
+        ge=0.02,
+        le=0.5,
+        description="How much of a square's side lies over its neighbour: more room for seams to "
+        "go around things, and less new in each square.",
+    ),
+]
+
+
+class SewnSpec(MixedSpec):
+    """Sews squares of an exemplar together, as they lie or turned and mirrored."""
+
+    layers: ClassVar[tuple[str, ...]] = (*MixedSpec.layers, "turn")
+
+    block: Block = 36
+    overlap: Overlap = 1 / 6
     tolerance: Annotated[float, Field(ge=0, le=10)] = Field(
         default=0.1,
         description="Squares up to this much worse than the best are taken by chance: 0 repeats "

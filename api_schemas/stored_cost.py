@@ -22,12 +22,14 @@ _Read = AnyMap | Cookie
 def form_of(item: _Read) -> str:
     """Name the form; what else lies beside the texels is a part of it."""
     kind = _kind(item)
-    return kind if kind == "box" else f"{kind} {item.wrap} {item.border_color}"
+    if kind == "box" or isinstance(item, Cookie):
+        return kind
+    return f"{kind} {item.wrap} {item.border_color}"
 
 
 def storing(item: _Read, texels: int) -> Cost:
     """Return the seconds to make the form of so many texels, and the bytes that are kept."""
-    held = _held(item, texels)
+    held = _held(item, texels) * (1 if isinstance(item, Cookie) else item.units)
     kind = _kind(item)
     return Cost(held * SECONDS_PER_TEXEL[kind], float(held * BYTES_PER_KEPT_TEXEL[kind]))
 
@@ -38,12 +40,13 @@ def at_once(item: _Read, texels: int) -> float:
 
 
 def _kind(item: _Read) -> str:
-    if item.filter in TABLE_FILTERS:
-        return item.filter
-    return "box" if isinstance(item, Cookie) else item.pyramid
+    if isinstance(item, Cookie):
+        return "box"
+    return item.filter if item.filter in TABLE_FILTERS else item.pyramid
 
 
 def _held(item: _Read, texels: int) -> int:
     """A sum holds its mirrored copies, too."""
-    doubled = item.wrap.count("mirror") if _kind(item) == "summed_area" else 0
-    return int(texels * 2**doubled)
+    if isinstance(item, Cookie) or _kind(item) != "summed_area":
+        return texels
+    return int(texels * 2 ** item.wrap.count("mirror"))

@@ -6,7 +6,7 @@ from pydantic import Field
 
 from api_schemas.base import Number
 from api_schemas.maps import Filter, NumberMap
-from api_schemas.members import Surface
+from api_schemas.surface_spec import Surface
 
 SURFACES_MAX = 16
 """Surfaces of one map: the shape is drawn once for each."""

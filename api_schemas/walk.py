@@ -28,6 +28,29 @@ def parts(value: object, pointer: str = "") -> Iterator[tuple[str, Schema]]:
                 yield from parts(item, f"{pointer}/{index}")
 
 
+def fields_within(spec: Schema) -> Iterator[tuple[str, FieldInfo, object]]:
+    """Yield name, field and value of each field of a spec, and of the parts in its lists.
+
+    Those are named `<field>/<index>/<field of the part>`.
+    """
+    for name, field in type(spec).model_fields.items():
+        value = getattr(spec, name)
+        if isinstance(value, list) and value and isinstance(value[0], Schema):
+            for index, part in enumerate(value):
+                for inner, its_field in type(part).model_fields.items():
+                    yield f"{name}/{index}/{inner}", its_field, getattr(part, inner)
+        else:
+            yield name, field, value
+
+
+def part_with(spec: Schema, name: str) -> tuple[Schema, str]:
+    """Return what holds a field that `fields_within` names, and the field's own name."""
+    if "/" not in name:
+        return spec, name
+    of_list, index, inner = name.split("/")
+    return getattr(spec, of_list)[int(index)], inner
+
+
 def outermost(value: object, kind: type[Model]) -> Iterator[Model]:
     """Yield the schemas of a kind within a value that lie in no other one of it."""
     if isinstance(value, kind):

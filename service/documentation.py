@@ -129,6 +129,7 @@ OBSTACLE_CODES: Final = (
     "coordinates_unsuited",
     "coordinates_missing",
     "mipmaps_need_exr",
+    "mipmaps_need_one_part",
     "layers_need_exr",
     "layer_unknown",
     "texture_not_solid",

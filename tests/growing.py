@@ -21,12 +21,17 @@ def grow(technique, exemplar, size, *, meaning="colour", show=None, **fields):
 
     Fields that are arrays are uploaded, too.
     """
-    pictures = [exemplar]
-    body = {"technique": technique, "exemplar": upload(0), **fields}
-    for name, value in fields.items():
+    pictures = []
+
+    def uploaded(value):
         if isinstance(value, np.ndarray):
-            body[name] = upload(len(pictures))
             pictures.append(value)
+            return upload(len(pictures) - 1)
+        if isinstance(value, dict):
+            return {name: uploaded(inner) for name, inner in value.items()}
+        return [uploaded(item) for item in value] if isinstance(value, list) else value
+
+    body = {"technique": technique, **uploaded({"exemplar": exemplar, **fields})}
     if FAMILIES["textures"][technique].sized:
         body["size"] = list(size)
 

@@ -30,7 +30,7 @@ def run_example(name: str, out: Path, assets: Path, **output: Any) -> dict[str, 
         "body": request.model_dump(mode="json"),
         "digest": digest(request),
         "assets": str(assets),
-        "preview": str(out.with_name("preview")),
+        "preview": str(assets / "preview"),
     }
     return run_job.run(order, out, _unreported)
 

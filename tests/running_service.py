@@ -62,6 +62,7 @@ class RunningService:
             except httpx.TransportError:
                 pass
             time.sleep(0.05)
+        self.kill()
         raise AssertionError(f"not ready after {SECONDS_TO_START} s:\n{self.log()}")
 
     def client(self) -> httpx.Client:

@@ -7,8 +7,9 @@ from typing import Any
 from hypothesis import strategies as st
 from pydantic import TypeAdapter
 
-from api_schemas.members import Surface, Texture
+from api_schemas.members import Texture
 from api_schemas.requests import RenderRequest, TextureRequest
+from api_schemas.surface_spec import Surface
 
 ASSET = "0" * 64
 

@@ -7,8 +7,9 @@ from typing import get_args
 import pytest
 
 from api_schemas import feasibility, meshes
+from api_schemas.families import Wrap
 from api_schemas.lights import LIGHTS_MAX
-from api_schemas.maps import MAPS_MAX, Filter, Wrap
+from api_schemas.maps import MAPS_MAX, Filter
 from api_schemas.output import SIDE_MAX
 from api_schemas.scene import NODES_MAX
 from service.json_body import DEPTH_MAX

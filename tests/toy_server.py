@@ -5,8 +5,8 @@ from pathlib import Path
 
 import uvicorn
 
-from service.__main__ import Server, listening
 from service.app import create_app
+from service.server import Server, listening
 from service.settings import Settings
 from tests.toy_service import toy_executors
 from worker.jobs.engine import EmbeddedEngine

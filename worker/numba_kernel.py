@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import functools
 import threading
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar, cast
 
 import numba
@@ -22,7 +23,7 @@ from numba.extending import overload
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["by_type", "is_array", "kernel", "parallel_kernel", "prange"]
+__all__ = ["by_type", "compiled_once", "is_array", "kernel", "parallel_kernel", "prange"]
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -51,6 +52,26 @@ def by_type(function: Callable[..., Any]) -> Callable[[Callable[P, R]], Callable
 def is_array(argument: Any) -> bool:
     """Whether a type that `by_type` passes is an array's."""
     return isinstance(argument, numba.types.Array)
+
+
+def compiled_once(name: str, compile_all: Callable[[], None]) -> None:
+    """Compile kernels that are not in the cache yet; a file beside them says which are.
+
+    What is there is not even loaded: whoever needs it first does that, within 20 to 200 ms, and
+    nobody pays a worker's memory for what no job asks of it.
+
+    Args:
+        name: Of these kernels together.
+        compile_all: Runs each of them once.
+    """
+    cache = numba.config.CACHE_DIR
+    mark = Path(cache, f"{name}.compiled")
+    if cache and mark.exists():
+        return
+    compile_all()
+    if cache:
+        mark.parent.mkdir(parents=True, exist_ok=True)
+        mark.touch()
 
 
 def parallel_kernel(function: Callable[P, R]) -> Callable[P, R]:

@@ -58,6 +58,7 @@ def write(
             digest=digest,
             version=VERSION,
             mipmaps=isinstance(output, TextureOutput) and output.mipmaps,
+            parts=isinstance(output, TextureOutput) and output.has_parts,
             attributes=attributes,
         )
         return MEDIA_TYPES["exr"]

@@ -33,8 +33,7 @@ from worker.uploaded_pictures import UploadedPictures
 def warm(report: Report) -> dict[str, Any]:
     """Compile the kernels of textures and the usual shaders, or find them compiled.
 
-    The readers of models are not among them: loading their kernels takes most of a second, and
-    nobody should wait for it who draws none.
+    The readers of models are not among them: nobody should wait for them who draws none.
 
     Returns:
         `fingerprint`: everything outside a request that decides pixels.

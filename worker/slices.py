@@ -1,4 +1,4 @@
-"""A volume as a file of pictures: its slices beside each other, or as layers."""
+"""A volume as a file of pictures: its slices beside each other, as layers or as parts."""
 
 import numpy as np
 
@@ -10,10 +10,10 @@ from worker.rendering.packing import PICTURE
 
 def slices_in(volume: Volume, output: TextureOutput) -> dict[str, Image]:
     """Return the pictures of one file by name, as its output arranges them."""
-    if output.arrangement == "layers":
-        layers = {f"slice_{index:04}": volume.slice(index) for index in range(volume.depth)}
-        return {PICTURE: volume.slice(0), **layers}
-    return {PICTURE: atlas(volume, output.columns)}
+    if output.arrangement == "atlas":
+        return {PICTURE: atlas(volume, output.columns)}
+    slices = {f"slice_{index:04}": volume.slice(index) for index in range(volume.depth)}
+    return slices if output.has_parts else {PICTURE: volume.slice(0), **slices}
 
 
 def atlas(volume: Volume, columns: int) -> Image:

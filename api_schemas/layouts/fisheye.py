@@ -5,8 +5,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from api_schemas.families import LayoutSpec
-from api_schemas.maps import Wrap
+from api_schemas.families import LayoutSpec, Wrap
 
 Towards = Literal["-z", "+z", "+x", "-x", "+y", "-y"]
 

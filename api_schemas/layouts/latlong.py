@@ -4,8 +4,7 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
-from api_schemas.families import LayoutSpec
-from api_schemas.maps import Wrap
+from api_schemas.families import LayoutSpec, Wrap
 
 
 class LatlongSpec(LayoutSpec):

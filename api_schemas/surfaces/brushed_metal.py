@@ -6,11 +6,11 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
-from api_schemas.families import SurfaceSpec
 from api_schemas.maps import MappableColor, MappableNonNegative, MappableNumber
+from api_schemas.scratched import ScratchedSpec
 
 
-class BrushedMetalSpec(SurfaceSpec):
+class BrushedMetalSpec(ScratchedSpec):
     """Metal with fine scratches in one direction: the dot product of the highlight is mapped."""
 
     revision: ClassVar[int] = 2
@@ -40,15 +40,6 @@ class BrushedMetalSpec(SurfaceSpec):
     across: MappableNumber = Field(
         default=1.0, description="The same for a tilt across the scratches (t)."
     )
-    angle: MappableNumber = Field(
-        default=0.0,
-        description="Turns the scratches counter-clockwise, in radians, from where u grows.",
-    )
     emission: MappableColor = Field(
         default=[0.0, 0.0, 0.0], description="Linear radiance the surface adds by itself."
     )
-
-    @property
-    def needs_tangents(self) -> bool:
-        """Scratches have a direction."""
-        return True

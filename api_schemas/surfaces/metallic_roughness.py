@@ -6,8 +6,8 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from api_schemas.families import STREAK_LOOKUPS, SurfaceSpec
 from api_schemas.maps import MappableColor, MappableNonNegative, MappableNumber
+from api_schemas.surface_spec import STREAK_LOOKUPS, SurfaceSpec
 
 
 class MetallicRoughnessSpec(SurfaceSpec):
@@ -16,6 +16,8 @@ class MetallicRoughnessSpec(SurfaceSpec):
     Ambient light counts as a uniform sky. Colours of the mesh's vertices multiply base_color.
     """
 
+    revision: ClassVar[int] = 2
+    streaks: ClassVar[bool] = True
     sums_sky: ClassVar[bool] = True
     source: ClassVar[str] = (
         "Khronos, glTF 2.0, appendix B, 2021, with KHR_materials_ior, _specular, _clearcoat and "
@@ -93,4 +95,4 @@ class MetallicRoughnessSpec(SurfaceSpec):
     @property
     def sky_lookups(self) -> int:
         """A streak is as many mirrors."""
-        return STREAK_LOOKUPS if self.needs_tangents else 1
+        return STREAK_LOOKUPS if self.is_streaked else 1

@@ -6,8 +6,8 @@ from typing import ClassVar, Literal, Self
 
 from pydantic import Field
 
-from api_schemas.families import SurfaceSpec
 from api_schemas.maps import MappableColor, MappableNonNegative
+from api_schemas.surface_spec import SurfaceSpec
 
 
 class PhongSpec(SurfaceSpec):

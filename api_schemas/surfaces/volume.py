@@ -7,8 +7,8 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from api_schemas.base import WHOLE, NonNegative
-from api_schemas.families import SurfaceSpec
 from api_schemas.maps import MappableColor, MappableDensity
+from api_schemas.surface_spec import SurfaceSpec
 
 
 class VolumeSpec(SurfaceSpec):

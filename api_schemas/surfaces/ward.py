@@ -6,14 +6,16 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
-from api_schemas.families import STREAK_LOOKUPS, SurfaceSpec
-from api_schemas.maps import MappableColor, MappableNonNegative, MappableNumber
+from api_schemas.maps import MappableColor, MappableNonNegative
+from api_schemas.scratched import ScratchedSpec
+from api_schemas.surface_spec import STREAK_LOOKUPS
 
 
-class WardSpec(SurfaceSpec):
+class WardSpec(ScratchedSpec):
     """Light scattered by scratches: an elliptical highlight, fitted to measurements."""
 
     revision: ClassVar[int] = 2
+    streaks: ClassVar[bool] = True
     sums_sky: ClassVar[bool] = True
     source: ClassVar[str] = "Ward, 1992"
     equation: ClassVar[str] = (
@@ -36,18 +38,9 @@ class WardSpec(SurfaceSpec):
     roughness_across: MappableNonNegative = Field(
         default=0.4, description="The same across the scratches (ay): larger makes a longer streak."
     )
-    angle: MappableNumber = Field(
-        default=0.0,
-        description="Turns the scratches counter-clockwise, in radians, from where u grows.",
-    )
     emission: MappableColor = Field(
         default=[0.0, 0.0, 0.0], description="Linear radiance the surface adds by itself."
     )
-
-    @property
-    def needs_tangents(self) -> bool:
-        """Scratches have a direction."""
-        return True
 
     @property
     def sky_lookups(self) -> int:

@@ -5,7 +5,7 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from api_schemas.base import WHOLE
-from api_schemas.sewn import Block, SewnSpec
+from api_schemas.sewn import Block, Overlap, SewnSpec
 
 
 class GraphCutSpec(SewnSpec):
@@ -15,23 +15,16 @@ class GraphCutSpec(SewnSpec):
     run anywhere here, and later squares may hide earlier seams.
     """
 
+    revision: ClassVar[int] = 2
     source: ClassVar[str] = "Kwatra, Schodl, Essa, Turk and Bobick, 2003; Boykov and Jolly, 2001"
     equation: ClassVar[str] = (
         "minimise the sum over all neighbours s, t from squares A, B of "
-        "|A(s) - B(s)| + |A(t) - B(t)|"
+        "(|A(s) - B(s)| + |A(t) - B(t)|) / (|dA(s)| + |dA(t)| + |dB(s)| + |dB(t)|)"
     )
 
     technique: Literal["graph_cut"]
-    block: Block = Field(
-        default=64,
-        description="Side of the squares in pixels, or that of the exemplar if it is smaller: "
-        "larger than what must stay whole, such as a brick.",
-    )
-    overlap: Annotated[float, Field(ge=0.02, le=0.5)] = Field(
-        default=1 / 3,
-        description="How much of a square's side lies over its neighbour: more room for seams to "
-        "go around things, and less new in each square.",
-    )
+    block: Block = 64
+    overlap: Overlap = 1 / 3
     passes: Annotated[int, Field(ge=0, le=8), WHOLE] = Field(
         default=2,
         description="How often more squares are laid over the seams, each shown only where that "

@@ -7,12 +7,10 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from api_schemas.cost import Cost
-from api_schemas.families import Meaning, TextureSpec
-from api_schemas.maps import DATA
-from api_schemas.members import Texture
+from api_schemas.normal_reading import NormalReadingSpec
 
 
-class HeightFromNormalSpec(TextureSpec):
+class HeightFromNormalSpec(NormalReadingSpec):
     """Finds the relief whose normals come nearest to those of a normal map.
 
     The report tells `not_integrable`, the share of the slopes' energy that no relief has, and
@@ -21,21 +19,8 @@ class HeightFromNormalSpec(TextureSpec):
 
     source: ClassVar[str] = "Frankot and Chellappa, 1988"
     equation: ClassVar[str] = "H = -i (k_u P + k_v Q) / (k_u^2 + k_v^2), p = -n_x/n_z, q = -n_y/n_z"
-    meaning: ClassVar[Meaning] = "data"
 
     technique: Literal["height_from_normal"]
-    normal: Annotated[Texture, DATA] = Field(
-        description="The normal map: x along u, y along v, z out of the surface; it goes on "
-        "around its edges."
-    )
-    normal_range: Literal["unit", "signed"] = Field(
-        default="unit",
-        description="Whether the normal map holds 0..1, with 0.5 for none, or the numbers "
-        "themselves.",
-    )
-    green: Literal["up", "down"] = Field(
-        default="up", description="Whether green grows with v, as in OpenGL, or against it."
-    )
     depth: Annotated[float, Field(ge=1e-4, le=16)] = Field(
         default=0.05, description="How many tiles high a value of 1 stands: less is more contrast."
     )

@@ -7,14 +7,14 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from api_schemas.by_example import FromExemplarSpec
+from api_schemas.by_example import MaterialSpec
 from api_schemas.cost import Cost
 from api_schemas.maps import DATA
 from api_schemas.members import Texture
 from api_schemas.own_size import LIKE_EXEMPLAR
 
 
-class HoleFillingSpec(FromExemplarSpec):
+class HoleFillingSpec(MaterialSpec):
     """Removes what is in a hole: the exemplar, with the hole filled from what is around it.
 
     The output's size should be the exemplar's. What is outside of the hole stays as it is.
@@ -29,7 +29,8 @@ class HoleFillingSpec(FromExemplarSpec):
 
     technique: Literal["hole_filling"]
     hole: Annotated[Texture, LIKE_EXEMPLAR, DATA] = Field(
-        description="Where its first channel is at least 0.5, the picture is made anew."
+        description="Where its first channel is at least 0.5, the picture is made anew. Of another "
+        "size, it is brought to the exemplar's."
     )
 
     def cost_from(self, within: Mapping[str, int], pixels: int) -> Cost:

@@ -8,7 +8,7 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from api_schemas.base import WHOLE
-from api_schemas.by_example import EXEMPLAR_SIDE_MAX, FromExemplarSpec
+from api_schemas.by_example import EXEMPLAR_SIDE_MAX, MaterialSpec
 from api_schemas.cost import Cost
 from api_schemas.maps import DATA
 from api_schemas.members import Texture
@@ -17,7 +17,7 @@ from api_schemas.own_size import LIKE_EXEMPLAR
 Shift = Annotated[int, Field(ge=-EXEMPLAR_SIDE_MAX, le=EXEMPLAR_SIDE_MAX), WHOLE]
 
 
-class ImageShufflingSpec(FromExemplarSpec):
+class ImageShufflingSpec(MaterialSpec):
     """Moves a part of the exemplar; what it leaves behind and its surroundings are made anew.
 
     The output's size should be the exemplar's. What is moved beyond its edges is cut off.
@@ -29,7 +29,8 @@ class ImageShufflingSpec(FromExemplarSpec):
 
     technique: Literal["image_shuffling"]
     region: Annotated[Texture, LIKE_EXEMPLAR, DATA] = Field(
-        description="Where its first channel is at least 0.5, the picture moves."
+        description="Where its first channel is at least 0.5, the picture moves. Of another size, "
+        "it is brought to the exemplar's."
     )
     shift: Annotated[list[Shift], Field(min_length=2, max_length=2)] = Field(
         description="How many pixels it moves to the right, and down."

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Iterator, Mapping
 from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
@@ -10,6 +11,7 @@ from pydantic import Field
 from api_schemas.base import WHOLE
 from api_schemas.by_example import FromExemplarSpec
 from api_schemas.cost import Cost
+from api_schemas.families import Refusal
 from api_schemas.members import Texture
 from api_schemas.own_size import OWN_SIZE
 
@@ -21,7 +23,8 @@ class NearestNeighbourFieldSpec(FromExemplarSpec):
     """Paints a picture with an exemplar's pixels: each from the middle of the most similar patch.
 
     The field is in the layers: source, u and v in the exemplar; offset, columns to the right and
-    rows down in pixels; distance, the root of the mean squared difference, 0..1.
+    rows down in pixels; distance, the root of the mean squared difference, 0..1; angle, how far the
+    patch lies turned in the exemplar, anticlockwise in radians; scale, how much larger it is there.
     """
 
     source: ClassVar[str] = "Barnes, Shechtman, Finkelstein and Goldman, 2009 and 2010 (PatchMatch)"
@@ -30,6 +33,8 @@ class NearestNeighbourFieldSpec(FromExemplarSpec):
         "source",
         "offset",
         "distance",
+        "angle",
+        "scale",
         *(
             f"{name}_{rank}"
             for rank in range(2, NEAREST_MAX + 1)
@@ -62,8 +67,40 @@ class NearestNeighbourFieldSpec(FromExemplarSpec):
         "and so on have those after the nearest; where there are no more, the distance is 1.",
     )
 
+    rotations: Annotated[float, Field(ge=0, le=math.pi)] = Field(
+        default=0.0,
+        description="Up to which angle, in radians, patches are looked for turned either way: pi, "
+        "however they lie. Then all places are found between pixels, and offsets are not whole.",
+    )
+    scales: Annotated[float, Field(ge=1, le=4)] = Field(
+        default=1.0,
+        description="Up to how many times as large, or as small, patches are looked for.",
+    )
+
+    @property
+    def turned(self) -> bool:
+        """Whether patches have an angle and a scale."""
+        return self.rotations > 0 or self.scales > 1
+
+    def refusals(self) -> Iterator[Refusal]:
+        """Not all of the ways a patch may lie are tried, nor are several of them remembered."""
+        if self.turned and self.method == "exact":
+            yield Refusal(
+                "options_exclude_each_other",
+                "method",
+                "turned and scaled patches are looked for by patch_match alone",
+            )
+        if self.turned and self.nearest > 1:
+            yield Refusal(
+                "options_exclude_each_other",
+                "nearest",
+                f"of turned and scaled patches the nearest is found, not {self.nearest}",
+            )
+
     def has_layer(self, name: str) -> bool:
-        """Whether there is such a layer: of as many places as are looked for."""
+        """Whether there is such a layer: of as many places as are looked for, in such ways."""
+        if name in ("angle", "scale"):
+            return self.turned
         rank = name.rpartition("_")[2]
         return super().has_layer(name) and not (rank.isdigit() and int(rank) > self.nearest)
 
@@ -76,7 +113,7 @@ class NearestNeighbourFieldSpec(FromExemplarSpec):
             if self.method == "exact"
             else 24.0 * self.iterations * self.nearest
         )
-        slowness = 5e-11 if self.method == "exact" else 1e-9
+        slowness = 5e-11 if self.method == "exact" else 5e-9 if self.turned else 1e-9
         return Cost(
             seconds=comparisons * numbers * slowness + (exemplar + target) * 2e-6 + pixels * 5e-8,
             bytes=(exemplar + target) * (180.0 + 20 * self.nearest)

@@ -7,12 +7,10 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from api_schemas.cost import Cost
-from api_schemas.families import Meaning, TextureSpec
-from api_schemas.maps import DATA
-from api_schemas.members import Texture
+from api_schemas.normal_reading import NormalReadingSpec
 
 
-class NormalMapDoctorSpec(TextureSpec):
+class NormalMapDoctorSpec(NormalReadingSpec):
     """Asks whether a normal map belongs to a relief; shows the normals of the nearest one.
 
     The report tells `not_integrable`, the share of the slopes' energy that no relief has, and
@@ -32,19 +30,9 @@ class NormalMapDoctorSpec(TextureSpec):
         "curl = dq/du - dp/dv with slopes p = -n_x/n_z, q = -n_y/n_z; circulation = the integral "
         "of p du + q dv round the loop"
     )
-    meaning: ClassVar[Meaning] = "data"
     layers: ClassVar[tuple[str, ...]] = ("curl", "height", "residual")
 
     technique: Literal["normal_map_doctor"]
-    normal: Annotated[Texture, DATA] = Field(
-        description="The normal map: x along u, y along v, z out of the surface; it goes on "
-        "around its edges."
-    )
-    normal_range: Literal["unit", "signed"] = Field(
-        default="unit",
-        description="Whether the normal map holds 0..1, with 0.5 for none, or the numbers "
-        "themselves.",
-    )
     green: Literal["up", "down"] = Field(
         default="up", description="What is believed: green grows with v, as in OpenGL, or against."
     )

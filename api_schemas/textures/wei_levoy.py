@@ -6,11 +6,11 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from api_schemas.base import WHOLE
-from api_schemas.by_example import GrownMaterialSpec
+from api_schemas.by_example import MixedSpec
 from api_schemas.cost import Cost
 
 
-class WeiLevoySpec(GrownMaterialSpec):
+class WeiLevoySpec(MixedSpec):
     """Grows smooth random things, such as clouds, water and fur, a little soft. It always tiles."""
 
     source: ClassVar[str] = "Wei and Levoy, 2000"

@@ -107,6 +107,16 @@ def test_a_huge_picture_in_another_layout_is_weighed() -> None:
             {"technique": "metallic_roughness", "anisotropy_strength": {"texture": PICTURE}},
             {"technique": "metallic_roughness", "anisotropy_rotation": {"texture": PICTURE}},
         ),
+        (
+            {
+                "technique": "metallic_roughness",
+                "height": {"texture": PICTURE, "fine_detail": "streaks"},
+            },
+            {
+                "technique": "metallic_roughness",
+                "height": {"texture": PICTURE, "fine_detail": "roughness"},
+            },
+        ),
     ],
 )
 def test_a_streak_of_sky_costs_as_many_mirrors(

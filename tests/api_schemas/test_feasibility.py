@@ -144,6 +144,21 @@ def test_a_surface_has_up_to_so_many_maps(monkeypatch):
     assert found(request) == [("too_many_maps", "/scene/nodes/1/surface")]
 
 
+def test_maps_that_tell_how_slopes_vary_count_twice(monkeypatch):
+    def worn(kind, fine_detail):
+        mapped = {"texture": {"technique": "perlin"}, "fine_detail": fine_detail}
+        surface = {"technique": "metallic_roughness", kind: mapped}
+        return found(scene(nodes=[{"mesh": {"type": "box"}, "surface": surface}]))
+
+    monkeypatch.setattr(feasibility, "MAPS_MAX", 1)
+
+    many = [("too_many_maps", "/scene/nodes/0/surface")]
+    for kind, twice in (("normal", False), ("bump", False), ("height", True)):
+        assert worn(kind, "lost") == []
+        assert worn(kind, "roughness") == (many if twice else [])
+        assert worn(kind, "streaks") == many
+
+
 def test_assets_are_found_wherever_a_texture_may_stand():
     first, second = "1" * 64, "2" * 64
     surface = {
@@ -207,6 +222,17 @@ def test_a_layer_that_a_texture_does_not_tell_is_named():
             {"slices": 2, "arrangement": "layers", "format": "png"},
             [("layers_need_exr", "/output/arrangement")],
         ),
+        ({"technique": "granite"}, {"slices": 9, "arrangement": "parts", "format": "exr"}, []),
+        (
+            {"technique": "perlin"},
+            {"slices": 2, "arrangement": "parts", "format": "png"},
+            [("layers_need_exr", "/output/arrangement")],
+        ),
+        (
+            {"technique": "perlin"},
+            {"slices": 2, "arrangement": "parts", "format": "exr", "mipmaps": True},
+            [("mipmaps_need_one_part", "/output/mipmaps")],
+        ),
         (
             {"technique": "perlin"},
             {"slices": 1024, "size": [1024, 512]},
@@ -232,5 +258,34 @@ def test_lights_share_four_pictures():
 
     assert found(scene(lights=[spot(number % 4) for number in range(12)])) == []
     assert found(scene(lights=[spot(number) for number in range(5)])) == [
+        ("too_many_maps", "/scene/lights")
+    ]
+
+
+def test_a_lantern_needs_a_turn_and_a_layout_that_can_be():
+    def lamp(**cookie):
+        texture = {"technique": "perlin"}
+        light = {"type": "point", "position": [0, 0, 5], "cookie": {"texture": texture, **cookie}}
+        return found(scene(lights=[light]))
+
+    assert lamp(rotation=[0, 0, 2, 0]) == []
+    place = "/scene/lights/0/cookie"
+    assert lamp(rotation=[0, 0, 0, 0]) == [("light_degenerate", f"{place}/rotation")]
+    fisheye = {"technique": "fisheye", "model": "orthographic", "angle": 4.0}
+    assert lamp(layout=fisheye) == [("layout_impossible", f"{place}/layout/angle")]
+    sky = {"environment": {"texture": {"technique": "perlin"}, "layout": fisheye}, "nodes": []}
+    assert found(RenderRequest.model_validate({"scene": sky})) == [
+        ("layout_impossible", "/scene/environment/layout/angle")
+    ]
+
+
+def test_lanterns_share_the_four_pictures_with_slides():
+    def lamp(number):
+        layout = {"technique": "fisheye", "angle": 1.0 + number}
+        cookie = {"texture": {"technique": "perlin"}, "layout": layout}
+        return {"type": "point", "position": [0, 0, 5], "cookie": cookie}
+
+    assert found(scene(lights=[lamp(number % 4) for number in range(12)])) == []
+    assert found(scene(lights=[lamp(number) for number in range(5)])) == [
         ("too_many_maps", "/scene/lights")
     ]

@@ -9,8 +9,9 @@ from pydantic import TypeAdapter, ValidationError
 
 import api_schemas
 from api_schemas.language import FAMILIES
-from api_schemas.members import Surface, Texture
+from api_schemas.members import Texture
 from api_schemas.requests import RenderRequest, TextureRequest
+from api_schemas.surface_spec import Surface
 from tests.spec_strategies import render_requests, surfaces, texture_requests, textures
 
 TEXTURE = TypeAdapter(Texture)

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from tests.benchmarks.bench_render import no_model, noise, row
+from worker.jobs.heap import Heap, resident_bytes
 
 AT = (100, 250, 500, 1000)
 """Scenes after which the memory is looked at."""
@@ -44,11 +45,13 @@ def held_megabytes() -> list[float]:
     output = RenderOutput(size=[128, 128], supersampling=1)
     pictures = functools.partial(noise, side=512)
     found = []
+    heap = Heap()
     for count in itertools.count(1):
         rendering = render(new_scene(count), output, pictures, no_model, lambda share, stage: None)
         list(rendering.bands)
+        heap.tidy()  # as a worker does between jobs
         if count in AT:
-            found.append(resident_megabytes())
+            found.append(resident_bytes() / 1e6)
         if count == AT[-1]:
             return found
     raise AssertionError
@@ -68,12 +71,6 @@ def new_scene(number: int) -> Any:
     }
     ball = {"type": "sphere", "radius": 1 + number * 1e-4}
     return Scene.model_validate({"nodes": [{"mesh": ball, "surface": surface}]})
-
-
-def resident_megabytes() -> float:
-    """Return what this process has in memory now."""
-    pages = int(Path("/proc/self/statm").read_text().split()[1])
-    return pages * os.sysconf("SC_PAGE_SIZE") / 1e6
 
 
 if __name__ == "__main__":

@@ -23,7 +23,7 @@ from api_schemas.families import Meaning, TextureSpec
 from api_schemas.meshes import ModelMesh
 from api_schemas.output import RenderOutput
 from api_schemas.scene import Scene
-from api_schemas.solid import worn_size
+from api_schemas.solid import worn_depth, worn_size
 from api_schemas.textures.constant import ConstantSpec
 from api_schemas.textures.image import ImageSpec
 from worker.images.image import Image
@@ -146,7 +146,7 @@ def frame_of(
         | scene_members
     )
     output = RenderOutput(size=[SIDE, SIDE], supersampling=supersampling)
-    maker = TextureMaker(noise, no_volume, lambda spec, *, solid, meaning="colour": None)
+    maker = TextureMaker(noise, solid, lambda spec, *, solid, meaning="colour": None)
     return lambda: list(render(scene, output, maker, no_model, lambda fraction, stage: None).bands)
 
 
@@ -173,9 +173,11 @@ def no_picture(spec: ImageSpec, meaning: Meaning) -> Image:
     raise AssertionError(f"a picture {spec.asset} in a scene without uploads")
 
 
-def no_volume(spec: TextureSpec, meaning: Meaning) -> Volume:
-    """Fail as `no_picture` does."""
-    raise AssertionError(f"a volume of {spec.technique} in a scene without any")
+def solid(spec: TextureSpec, meaning: Meaning) -> Volume:
+    """A texture that fills space, as surfaces wear it."""
+    from worker.synthesis import synthesize_volume  # noqa: PLC0415  a first draw has none
+
+    return synthesize_volume(spec, (worn_depth(spec),) * 3, meaning)
 
 
 def no_model(mesh: ModelMesh) -> Model:

@@ -159,3 +159,69 @@ def test_a_reaction_that_runs_away_fails_by_name(client):
 
     assert answer.status_code == 409
     assert answer.json()["failure"]["code"] == "reaction_diverged"
+
+
+NOISE = {"technique": "perlin", "frequency": 8}
+ALL, NOTHING = ({"technique": "constant", "value": value} for value in ([1.0], [0.0]))
+
+
+@pytest.mark.parametrize(
+    "texture",
+    [
+        {"technique": "hole_filling", "hole": ALL},
+        {"technique": "image_shuffling", "region": ALL, "shift": [3, 0]},
+        {"technique": "texture_optimization", "size": [16, 16], "exemplar_mask": NOTHING},
+    ],
+    ids=["hole", "region", "mask"],
+)
+def test_an_exemplar_of_which_nothing_is_left_fails_by_name(client, texture):
+    texture |= {"exemplar": NOISE, "exemplar_size": [24, 24]}
+    body = {"texture": texture, "output": {"size": [24, 24]}}
+
+    answer = client.post("/v1/textures", json=body, headers={"Accept": "image/png"})
+
+    assert answer.status_code == 409
+    assert answer.json()["failure"]["code"] == "exemplar_unusable"
+
+
+@pytest.mark.parametrize(
+    ("fields", "pointer"),
+    [
+        ({"shift": [2049, 0]}, "/texture/shift/0"),
+        ({"shift": [0, 1.5]}, "/texture/shift/1"),
+        ({"shift": [3, 0], "margin": -1}, "/texture/margin"),
+        ({"shift": [3, 0], "exemplar_size": [0, 24]}, "/texture/exemplar_size/0"),
+        ({"shift": [3, 0], "region": None}, "/texture/region"),
+    ],
+)
+def test_a_part_that_cannot_be_moved_is_refused_with_its_place(client, fields, pointer):
+    texture = {"technique": "image_shuffling", "exemplar": NOISE, "region": ALL, **fields}
+
+    answer = client.post("/v1/textures", json={"texture": texture})
+
+    assert answer.status_code == 422
+    assert [error["pointer"] for error in answer.json()["problems"]] == [pointer]
+
+
+@pytest.mark.parametrize(
+    "texture",
+    [
+        {"technique": "image_shuffling", "region": ALL, "shift": [0, 0]},
+        {"technique": "image_shuffling", "region": NOTHING, "shift": [900, 0]},
+        {"technique": "hole_filling", "hole": NOTHING},
+    ],
+    ids=["not moved", "no region", "no hole"],
+)
+def test_what_changes_nothing_gives_the_picture_back(client, texture):
+    texture |= {"exemplar": NOISE, "exemplar_size": [24, 24]}
+    pictures = [
+        client.post(
+            "/v1/textures",
+            json={"texture": each, "output": {"size": [24, 24]}},
+            headers={"Accept": "image/png"},
+        ).content
+        for each in (texture, NOISE)
+    ]
+
+    assert pictures[0].startswith(b"\x89PNG")
+    assert pictures[0] == pictures[1]

@@ -14,6 +14,7 @@ from pathlib import Path
 
 from tests.running_service import RunningService
 from tests.soak.work import Work, callers
+from worker.jobs.heap import resident_bytes
 
 CALLERS = 3
 LOOKS = 40
@@ -61,18 +62,10 @@ def look(service: RunningService, work: Work, minutes: float) -> Look:
     """Add up what the service and its children hold."""
     assert service.process is not None
     parent = service.process.pid
-    held = {pid: resident_megabytes(pid) for pid in service.processes()}
+    held = {pid: resident_bytes(pid) / 1e6 for pid in service.processes()}
     files = sum(len(list(Path(f"/proc/{pid}/fd").iterdir())) for pid in held)
     own = held.pop(parent)
     return Look(minutes, work.done, own, sum(held.values()), files)
-
-
-def resident_megabytes(pid: int) -> float:
-    """Return what a process has in memory; nothing if it has just ended."""
-    try:
-        return int(Path(f"/proc/{pid}/statm").read_text().split()[1]) * 4096 / 1e6
-    except FileNotFoundError:
-        return 0.0
 
 
 def grown(looks: list[Look]) -> list[str]:

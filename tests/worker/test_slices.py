@@ -1,6 +1,7 @@
 """Volumes as files: where each slice lies."""
 
 import numpy as np
+import OpenImageIO
 import pytest
 from pydantic import TypeAdapter
 
@@ -87,6 +88,36 @@ def test_a_job_writes_slices_as_layers(tmp_path):
 
     assert (facts["width"], facts["height"]) == (16, 12)
     assert b"slice_0002" in (tmp_path / "file").read_bytes()
+
+
+def test_a_job_writes_slices_as_parts(tmp_path):
+    output = {"size": [16, 12], "slices": 3, "arrangement": "parts", "format": "exr"}
+    facts = run(tmp_path, MARBLE, **output, exr_type="float")
+
+    texture = TypeAdapter(Texture).validate_python(MARBLE)
+    expected = synthesize_volume(texture, (16, 12, 3)).voxels
+    assert (facts["width"], facts["height"]) == (16, 12)
+    # What another reader sees of the file: three pictures, each with its name and its channels
+    (tmp_path / "file.exr").write_bytes((tmp_path / "file").read_bytes())
+    file = OpenImageIO.ImageInput.open(str(tmp_path / "file.exr"))
+    for index, slice_ in enumerate(expected):
+        assert file.seek_subimage(index, 0)
+        assert file.spec().get_string_attribute("name") == f"slice_{index:04}"
+        assert file.spec().get_string_attribute("texloom:digest")
+        channels = file.spec().nchannels
+        assert (file.read_image(index, 0, 0, channels, "float") == slice_).all()
+    assert not file.seek_subimage(3, 0)
+
+
+def test_parts_are_the_same_bytes_each_time(tmp_path):
+    output = {"size": [8, 8], "slices": 2, "arrangement": "parts", "format": "exr"}
+    written = []
+    for name in "ab":
+        (tmp_path / name).mkdir()
+        run(tmp_path / name, MARBLE, **output)
+        written.append((tmp_path / name / "file").read_bytes())
+
+    assert written[0] == written[1]
 
 
 def test_slices_cost_what_their_voxels_do():

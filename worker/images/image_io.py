@@ -29,14 +29,14 @@ from worker.errors import UnusableAssetError
 from worker.images.codes import Transfer
 from worker.images.colour import REC709_CHROMATICITIES
 from worker.images.display import display_codes
-from worker.images.exr_layers import join_layers
+from worker.images.exr_layers import Channels, join_layers
 from worker.images.file_header import TEXELS_MAX, Header, inspect, too_large
 from worker.images.file_kinds import FileKind, sniff
 from worker.images.image import Image
 from worker.images.linearise import linearise
 from worker.images.png_filters import choose_png_filter
 from worker.images.pyramids import mip_chain
-from worker.images.scanlines import Scanlines, write_levels
+from worker.images.scanlines import Scanlines, write_levels, write_parts
 from worker.images.windows import place, turn
 
 OpenImageIO.attribute("limits:resolution", SIDE_MAX)
@@ -167,6 +167,7 @@ def write_exr(
     digest: str,
     version: str,
     mipmaps: bool = False,
+    parts: bool = False,
     attributes: Mapping[str, str] = MappingProxyType({}),
 ) -> None:
     """Write an OpenEXR file: linear, premultiplied, zip; layers as `join_layers` names them.
@@ -182,6 +183,8 @@ def write_exr(
         digest: Of the request.
         version: Of this program.
         mipmaps: Whether the box means of `mip_chain` are written as well, in tiles.
+        parts: Whether each layer is a part of its own, with the channels of a picture; then all
+            rows come at once, and there are no mipmaps.
         attributes: What else the file says of itself.
 
     Raises:
@@ -190,7 +193,30 @@ def write_exr(
     """
     rest = iter(bands)
     layers = next(rest)
+    said = {"texloom:digest": digest, "texloom:version": version, **attributes}
+    if parts:
+        pictures = {name: {"": image} for name, image in layers.items()}
+        joined = {name: join_layers(picture, pixel_type) for name, picture in pictures.items()}
+        specs = [_exr_spec(pictures[name], joined[name], height, said) for name in pictures]
+        for name, spec in zip(pictures, specs, strict=True):
+            spec.attribute("oiio:subimagename", name)
+        write_parts(path, specs, [channels.pixels for channels in joined.values()])
+        return
     channels = join_layers(layers, pixel_type)
+    spec = _exr_spec(layers, channels, height, said)
+    if mipmaps:
+        bands_of = [channels.pixels, *(join_layers(more, pixel_type).pixels for more in rest)]
+        write_levels(path, spec, mip_chain(np.concatenate(bands_of)))
+        return
+    with Scanlines("openexr", path, spec) as file:
+        file.write(channels.pixels)
+        for layers in rest:
+            file.write(join_layers(layers, pixel_type).pixels)
+
+
+def _exr_spec(
+    layers: Mapping[str, Image], channels: Channels, height: int, said: Mapping[str, str]
+) -> OpenImageIO.ImageSpec:
     _, width, count = channels.pixels.shape
     # Formats per channel are ignored when all are equal: the common one must be given here.
     spec = OpenImageIO.ImageSpec(width, height, count, channels.types[0])
@@ -200,21 +226,12 @@ def write_exr(
     spec.attribute("compression", "zip")
     # OpenImageIO writes the clock where this is missing.
     spec.attribute("DateTime", "1970:01:01 00:00:00")
-    spec.attribute("texloom:digest", digest)
-    spec.attribute("texloom:version", version)
-    for name, text in attributes.items():
+    for name, text in said.items():
         spec.attribute(name, text)
     if any(image.meaning == "colour" for image in layers.values()):
         spec.attribute("oiio:ColorSpace", _COLOUR_SPACES["linear"])
         spec.attribute("chromaticities", OpenImageIO.TypeDesc("float[8]"), REC709_CHROMATICITIES)
-    if mipmaps:
-        parts = [channels.pixels, *(join_layers(layers, pixel_type).pixels for layers in rest)]
-        write_levels(path, spec, mip_chain(np.concatenate(parts)))
-        return
-    with Scanlines("openexr", path, spec) as file:
-        file.write(channels.pixels)
-        for layers in rest:
-            file.write(join_layers(layers, pixel_type).pixels)
+    return spec
 
 
 @contextmanager

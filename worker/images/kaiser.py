@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from api_schemas.maps import Wrap
+from api_schemas.families import Wrap
 
 _REACH = 3.0
 """Texels of the smaller level to each side that a texel is made from."""

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from api_schemas.base import FLOAT32_MAX
-from api_schemas.maps import Wrap
+from api_schemas.families import Wrap
 from api_schemas.relief import BumpEncoding
 from worker.images.image import Image
 from worker.images.packed_floats import unpacked
@@ -25,9 +25,13 @@ class Decoded:
 
 @dataclass(frozen=True, slots=True)
 class Normals:
-    """Asks for unit normals, of 0..1 with .5 for none or of the numbers themselves."""
+    """Asks for unit normals, of 0..1 with .5 for none or of the numbers themselves.
+
+    Or as slopes: with z made 1.
+    """
 
     range: Literal["unit", "signed"]
+    slopes: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +52,19 @@ class Flat:
     """Asks for a picture as it is, and never for a volume."""
 
 
-Preparation = Decoded | Normals | Slopes | Unpacked | Flat
+@dataclass(frozen=True, slots=True)
+class Products:
+    """Asks for the products of the slopes that another preparation gives (Olano and Baker, 2010).
+
+    Their means less the products of the means tell how slopes vary, and along which direction.
+    """
+
+    of: Decoded | Normals | Slopes
+
+
+Preparation = Decoded | Normals | Slopes | Products | Unpacked | Flat
+_STEEPEST = 100.0
+"""Slope of a normal that lies in the surface."""
 
 
 def prepared(image: Image, preparation: Preparation | None) -> Image:
@@ -56,8 +72,15 @@ def prepared(image: Image, preparation: Preparation | None) -> Image:
 
     Decoded: two channels, tilts along u and v, and their squares' sum if asked for. Normals: three
     channels of unit length, upright where there is none. Slopes: three channels: the height, and
-    its change per tile along u and along v. Unpacked: one channel. What is no number is 0.
+    its change per tile along u and along v. Products: three channels, of the slopes along u and v:
+    u u, u v and v v. Unpacked: one channel. What is no number is 0.
     """
+    if isinstance(preparation, Products):
+        known = prepared(image, preparation.of).pixels.astype(np.float64)
+        first = 1 if isinstance(preparation.of, Slopes) else 0
+        u, v = known[..., first], known[..., first + 1]
+        products = np.clip(np.stack([u * u, u * v, v * v], axis=-1), -FLOAT32_MAX, FLOAT32_MAX)
+        return Image(products.astype(np.float32), "data")
     if preparation is None or isinstance(preparation, Flat):
         return image
     if isinstance(preparation, Unpacked):
@@ -67,7 +90,8 @@ def prepared(image: Image, preparation: Preparation | None) -> Image:
         pair = decode(finite[..., [0, min(1, image.channels - 1)]], preparation.encoding)
         return Image(with_squares(pair) if preparation.squares else pair, "data")
     if isinstance(preparation, Normals):
-        return Image(unit_normals(_xyz(finite), preparation.range), "data")
+        normals = unit_normals(_xyz(finite), preparation.range)
+        return Image(_over_z(normals) if preparation.slopes else normals, "data")
     channel = 0 if image.channels == 1 and preparation.channel < 3 else preparation.channel
     if channel >= image.channels:
         flat = np.zeros((*finite.shape[:2], 3), dtype=np.float32)
@@ -113,6 +137,12 @@ def unit_normals(
     upright = np.array([0.0, 0.0, 1.0])
     unit = np.where(length > 0, held / np.where(length > 0, length, 1), upright)
     return np.asarray(unit, dtype=np.float32)
+
+
+def _over_z(normals: NDArray[np.float32]) -> NDArray[np.float32]:
+    over = np.ones_like(normals)
+    over[..., :2] = normals[..., :2] / np.maximum(normals[..., 2:], 1 / _STEEPEST)
+    return over
 
 
 def _xyz(pixels: NDArray[np.float32]) -> NDArray[np.float32]:

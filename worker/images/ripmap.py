@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from api_schemas.maps import Wrap
+from api_schemas.families import Wrap
 from worker.images.pyramids import halve_height, halve_width
 
 

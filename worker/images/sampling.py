@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from api_schemas.maps import Wrap
+    from api_schemas.families import Wrap
 
     Floats = NDArray[np.float64]
     Indices = NDArray[np.int64]

@@ -93,6 +93,28 @@ def write_levels(
         raise _failure_of(file, "openexr", path, room)
 
 
+def write_parts(
+    path: Path, specs: Sequence[OpenImageIO.ImageSpec], pictures: Sequence[NDArray[np.float32]]
+) -> None:
+    """Write an EXR of several parts, each a picture (height, width, channels) with its own spec.
+
+    Raises:
+        OSError: The file cannot be written.
+    """
+    file = OpenImageIO.ImageOutput.create("openexr")
+    if file is None:
+        raise OSError("this OpenImageIO cannot write openexr")
+    room = sum(spec.image_bytes(True) for spec in specs)
+    opened = file.open(str(path), list(specs))
+    for index, (spec, pixels) in enumerate(zip(specs, pictures, strict=True)):
+        if index:
+            opened = file.open(str(path), spec, "AppendSubimage")
+        if not (opened and file.write_image(np.ascontiguousarray(pixels))):
+            raise _failure_of(file, "openexr", path, room)
+    if not file.close():
+        raise _failure_of(file, "openexr", path, room)
+
+
 def _failure_of(file: OpenImageIO.ImageOutput, format_name: str, path: Path, room: int) -> OSError:
     """Return why a file of up to `room` bytes cannot be written.
 

@@ -7,7 +7,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from api_schemas.maps import TABLE_FILTERS, Filter, Pyramid, Wrap
+from api_schemas.families import Wrap
+from api_schemas.maps import TABLE_FILTERS, Filter, Pyramid
 from worker.images.kaiser import kaiser_chain
 from worker.images.pyramids import Cut, keep_coverage, mip_chain
 from worker.images.ripmap import ripmap, ripmap_table

@@ -24,6 +24,7 @@ from pathlib import Path
 from typing import Any, Protocol, cast
 
 from worker.jobs import log_lines
+from worker.jobs.heap import Heap
 from worker.stages import Report
 
 PR_SET_PDEATHSIG = 1
@@ -65,6 +66,8 @@ def serve(
         log.exception("could not warm %s up", module)
         _send(connection, "failed", _failure_of(error))
         return
+    heap = Heap()
+    heap.tidy()
     _send(connection, "warm", facts)
     while True:
         try:
@@ -73,6 +76,7 @@ def serve(
             return
         with log_lines.telling(work=Path(out).name.partition(".")[0]):
             _send(connection, *_answer(executor, request, Path(out), report))
+        heap.tidy()
 
 
 def become_expendable() -> None:

@@ -5,7 +5,6 @@ survive a power cut are then flushed, outside the lock of the writers: one flush
 were committed before it began.
 """
 
-import os
 import sqlite3
 import threading
 from collections.abc import Callable, Iterator
@@ -16,8 +15,8 @@ from typing import Any, Final
 from sqlalchemy import Connection, Engine, create_engine, event
 from sqlalchemy.exc import DatabaseError, OperationalError
 
-from worker.jobs.child import FULL_DISK
 from worker.jobs.errors import RecordsBusyError, RecordsError, StorageFullError
+from worker.jobs.files import settle
 
 PATIENCE_SECONDS: Final = 10
 PRAGMAS: Final = (
@@ -115,17 +114,9 @@ class Database:
             self._flushes_begun += 1
             number = self._flushes_begun
             try:
-                descriptor = os.open(self._log, os.O_RDONLY)
+                settle(self._log)
             except FileNotFoundError:
                 return  # folded into the database, which was flushed
-            try:
-                os.fsync(descriptor)
-            except OSError as error:
-                if error.errno in FULL_DISK:
-                    raise StorageFullError("the disk is full") from error
-                raise
-            finally:
-                os.close(descriptor)
             self._last_good_flush = number
 
     def close(self) -> None:

@@ -15,7 +15,7 @@ from worker.jobs.data_folder import DataFolder
 from worker.jobs.environment import child_environment
 from worker.jobs.errors import DrainingError
 from worker.jobs.forecast import Forecast
-from worker.jobs.forkserver import start_forkserver
+from worker.jobs.forkserver import EXECUTOR, start_forkserver
 from worker.jobs.idempotency import Key
 from worker.jobs.intake import Request
 from worker.jobs.job import FINAL_STATES, Job, Priority, State
@@ -65,7 +65,7 @@ class EmbeddedEngine:
         assets_bytes_limit: int = 20 << 30,
         time_limit_seconds: float = 600,
         memory_limit_bytes: int = 4 << 30,
-        executor: str = "worker.run_job",
+        executor: str = EXECUTOR,
         measurer: str = "worker.measure_asset",
         gl: str = "osmesa",
         native_cpu: bool = False,

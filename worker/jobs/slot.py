@@ -6,7 +6,6 @@ limit are kept by SIGKILL, which no native call can refuse.
 
 import atexit
 import json
-import os
 import threading
 import time
 from collections.abc import Mapping
@@ -19,6 +18,7 @@ from worker.errors import Failure
 from worker.jobs.child import serve
 from worker.jobs.errors import SlotError, failure
 from worker.jobs.forkserver import CONTEXT
+from worker.jobs.heap import resident_bytes
 from worker.stages import Report
 
 if TYPE_CHECKING:
@@ -31,7 +31,6 @@ LONGEST_ANSWER_BYTES: Final = 64 << 20
 """Facts name every node and material of a model: 20 000 names of 256 characters at 6 bytes each,
 as JSON escapes them, are 30 MB."""
 RESERVABLE: Final = 2
-PAGE_BYTES: Final = os.sysconf("SC_PAGE_SIZE")
 
 
 @dataclass(frozen=True, slots=True)
@@ -199,7 +198,7 @@ class Slot:
                 return Outcome("timed_out", failure=failure("timed_out", message))
             if now >= next_look:
                 next_look = now + TICK_SECONDS
-                if _resident_bytes(process.pid) > self._memory_limit_bytes:
+                if resident_bytes(process.pid) > self._memory_limit_bytes:
                     return self._over_memory()
 
     def _crash(self) -> Outcome:
@@ -216,11 +215,3 @@ class Slot:
 
 def _crash(message: str) -> Outcome:
     return Outcome("crashed", failure=failure("worker_lost", message))
-
-
-def _resident_bytes(pid: int | None) -> int:
-    """Resident memory of a process; 0 when it has just ended."""
-    try:
-        return int(Path(f"/proc/{pid}/statm").read_text().split()[1]) * PAGE_BYTES
-    except (OSError, IndexError):
-        return 0

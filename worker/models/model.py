@@ -4,8 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from api_schemas.camera import PosedCamera
-from api_schemas.families import SurfaceSpec
 from api_schemas.lights import Light
+from api_schemas.surface_spec import SurfaceSpec
 from worker.geometry.mesh import Mesh
 from worker.geometry.transforms import Matrix
 

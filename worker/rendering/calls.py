@@ -45,31 +45,31 @@ class Call:
     returns: str
     arguments: tuple[int | Argument, ...]
 
-    def text(self, given: str, number: int) -> str:
-        """Write the call; `number` tells its uniforms from those of other calls."""
+    def text(self, given: str, owner: int | str) -> str:
+        """Write the call; `owner` tells its uniforms from those of other calls."""
         arguments = [
-            str(argument) if isinstance(argument, int) else self.uniform(argument, number)
+            str(argument) if isinstance(argument, int) else self.uniform(argument, owner)
             for argument in self.arguments
         ]
         return f"{self.role}_{self.technique}({', '.join([given, *arguments])})"
 
-    def uniform(self, argument: Argument, number: int) -> str:
+    def uniform(self, argument: Argument, owner: int | str) -> str:
         """Name a uniform."""
-        return f"{self.role}_{number}_{argument.field}"
+        return f"{self.role}_{owner}_{argument.field}"
 
-    def declarations(self, number: int) -> list[str]:
-        """Declare the uniforms of the call with this number."""
+    def declarations(self, owner: int | str) -> list[str]:
+        """Declare the uniforms of the call of this owner."""
         return [
-            f"uniform {argument.type} {self.uniform(argument, number)}"
+            f"uniform {argument.type} {self.uniform(argument, owner)}"
             + (f"[{argument.count}];" if argument.count else ";")
             for argument in self.arguments
             if isinstance(argument, Argument)
         ]
 
-    def values(self, spec: TechniqueSpec, number: int) -> dict[str, Any]:
-        """Return the uniforms of the call with this number, by name."""
+    def values(self, spec: TechniqueSpec, owner: int | str) -> dict[str, Any]:
+        """Return the uniforms of the call of this owner, by name."""
         return {
-            self.uniform(argument, number): getattr(spec, argument.field)
+            self.uniform(argument, owner): getattr(spec, argument.field)
             for argument in self.arguments
             if isinstance(argument, Argument)
         }

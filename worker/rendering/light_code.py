@@ -1,6 +1,7 @@
 """Generated code of lit surfaces: what part of a light comes through, for the lights of a scene."""
 
-from worker.rendering.shading_layout import LightLayout
+from worker.rendering.lookup_fragment import SAMPLERS
+from worker.rendering.shading_layout import CookieLayout, LightLayout
 
 _LAMPS_ALONE = (
     "int light_total() { return light_count; }",
@@ -21,14 +22,20 @@ def light_chunks(layout: LightLayout) -> list[str]:
     chunks += ["lib/shadows.glsl"] if layout.shadows else []
     if layout.cookies:
         chunks.append("lib/cookies.glsl")
-        chunks += [f"lib/sample_{cookie.filter}.glsl" for cookie in layout.cookies]
+    for cookie in layout.cookies:
+        chunks += [] if cookie.call is None else [cookie.call.chunk]
+        flat = cookie.picture.format.kind == "picture"
+        chunks.append(f"lib/sample_{cookie.filter if flat else 'space'}.glsl")
     return chunks
 
 
 def light_lines(layout: LightLayout) -> list[str]:
     """Write what lib/lights.glsl asks; without shadows and cookies all light comes through."""
     count = len(layout.cookies)
-    declared = [f"uniform sampler2D {name};" for name in layout.samplers]
+    declared = []
+    for name, cookie in zip(layout.samplers, layout.cookies, strict=True):
+        declared.append(f"uniform {SAMPLERS[cookie.picture.format.kind]} {name};")
+        declared += [] if cookie.call is None else cookie.call.declarations(name)
     if count:
         declared += [
             f"uniform vec4 cookie_period[{count}];",
@@ -44,12 +51,19 @@ def light_lines(layout: LightLayout) -> list[str]:
         "    vec3 share = vec3(seen_by_light(light, point));",
     ]
     if count:
-        lines.append("    Footprint place = cookie_place(light, point.position);")
+        lines.append("    Reach ray = cookie_ray(light, point.position);")
     lines += [
-        f"    if (cookie_picture[light] == {number}.0) share *= sample_{cookie.filter}("
-        f"cookie_{number}, "
-        f"look_up(place, mat3(1.0), cookie_period[{number}], cookie_size[{number}])).rgb;"
+        f"    if (cookie_picture[light] == {number}.0) share *= {_reading(cookie, number)}.rgb;"
         for number, cookie in enumerate(layout.cookies)
     ]
     lines += ["    return share;", "}"]
     return [*lines, *(_WITH_SKY if layout.sky == "lamps" else _LAMPS_ALONE)]
+
+
+def _reading(cookie: CookieLayout, number: int) -> str:
+    name = f"cookie_{number}"
+    where = "thrown(ray)" if cookie.call is None else cookie.call.text("ray", name)
+    if cookie.picture.format.kind == "picture":
+        how = f"mat3(1.0), cookie_period[{number}], cookie_size[{number}]"
+        return f"sample_{cookie.filter}({name}, look_up({where}, {how}))"
+    return f"sample_{cookie.filter}({name}, look_up_cube({where}, cookie_size[{number}].x))"

@@ -4,7 +4,8 @@ from collections.abc import Callable, Iterable
 
 from worker.rendering.shading_layout import SPACE_FILTERS, LookupLayout, ShadingLayout
 
-_SAMPLERS = {"picture": "sampler2D", "volume": "sampler3D", "cube": "samplerCube"}
+SAMPLERS = {"picture": "sampler2D", "volume": "sampler3D", "cube": "samplerCube"}
+"""GLSL types by kinds of textures."""
 
 
 def lookup_chunks(layout: ShadingLayout) -> list[str]:
@@ -26,7 +27,7 @@ def lookup_declarations(layout: ShadingLayout, *, calls: bool = True) -> list[st
     if not count:
         return []
     lines = [
-        f"uniform {_SAMPLERS[picture.format.kind]} {name};"
+        f"uniform {SAMPLERS[picture.format.kind]} {name};"
         for name, picture in zip(layout.samplers, layout.pictures, strict=True)
         if name not in layout.tables
     ]

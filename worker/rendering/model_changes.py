@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator, Sequence
 
-from api_schemas.families import SurfaceSpec
 from api_schemas.model_mesh import ModelMesh
+from api_schemas.surface_spec import SurfaceSpec
 from worker.errors import RenderError
 from worker.models.model import Model, Part
 

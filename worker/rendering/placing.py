@@ -8,10 +8,10 @@ from typing import Protocol
 
 import numpy as np
 
-from api_schemas.families import SurfaceSpec
 from api_schemas.model_mesh import ModelMesh
 from api_schemas.relief import Displacement
 from api_schemas.scene import Node
+from api_schemas.surface_spec import SurfaceSpec
 from api_schemas.surfaces.phong import PhongSpec
 from worker.geometry import primitives
 from worker.geometry.mesh import Mesh

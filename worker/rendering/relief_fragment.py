@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from worker.rendering.shading_layout import ReliefLayout, ShadingLayout
+from worker.rendering.shading_layout import ReliefLayout, ShadingLayout, Spread
 
 _NORMALS = {
     "tangent": ("lib/normal_map.glsl", "tilted_normal"),
@@ -25,6 +25,8 @@ def relief_chunks(layout: ShadingLayout) -> list[str]:
     chunks += ["lib/fine_bumps.glsl"] if relief.roughened_by_bump else []
     if relief.height is not None:
         chunks.append("lib/height_map.glsl")
+    chunks += [f"lib/{spread.of}_ways.glsl" for spread in relief.spreads]
+    chunks += ["lib/fine_slopes.glsl"] if relief.spreads else []
     return chunks
 
 
@@ -74,9 +76,23 @@ def tilts(
             f"texel_{number}.yz, look_up({place(number)}, {_how(number)}), "
             f"lookup_period[{number}]))"
         )
+    for spread in relief.spreads:
+        lines += [*read(spread.products), _spreading(spread, place)]
     if leans:
         lines.append(f"    point.normal = leaned(point.normal, {' + '.join(leans)});")
     return lines
+
+
+def _spreading(spread: Spread, place: Callable[[int], str]) -> str:
+    number, means = spread.means, "yz" if spread.of == "height" else "xy"
+    normal = "vertex_normal" if spread.of == "normal" else "outer_of(point)"
+    looked = f", look_up({place(number)}, {_how(number)}), lookup_period[{number}]"
+    ways = f"{spread.of}_ways(point, {normal}{looked if spread.of == 'height' else ''})"
+    covariance = f"covariance_of(texel_{spread.products}.xyz, texel_{number}.{means})"
+    spreads = f"spread_along({ways}, {covariance})"
+    if spread.streaks:
+        return f"    slope_covariance += {spreads};"
+    return f"    slope_variance += even_variance({spreads});"
 
 
 def _how(number: int) -> str:

@@ -7,14 +7,14 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from api_schemas.coordinates.uv import UvSpec
-from api_schemas.families import SurfaceSpec
 from api_schemas.layouts.cube import CubeSpec
-from api_schemas.maps import Map, NormalMap
+from api_schemas.maps import FineDetail, Map, NormalMap
 from api_schemas.relief import AnyMap, BumpMap, HeightMap, ParallaxMap, TangentFrames
 from api_schemas.solid import is_carved
-from worker.images.relief import Decoded, Flat, Normals, Preparation, Slopes
+from api_schemas.surface_spec import SurfaceSpec
+from worker.images.relief import Decoded, Flat, Normals, Preparation, Products, Slopes
 from worker.rendering.lookups import turn
-from worker.rendering.shading_layout import ReliefLayout
+from worker.rendering.shading_layout import ReliefLayout, Spread
 
 LookUp: TypeAlias = Callable[[AnyMap, Preparation | None], int]
 """Lays a lookup of data out, of a picture that is made ready first, and returns its number."""
@@ -43,26 +43,39 @@ def lay_out(surface: SurfaceSpec, look_up: LookUp) -> tuple[ReliefLayout, dict[s
     """Return what the compiler must know of a surface's relief, and its uniforms."""
     uniforms: dict[str, Any] = {}
     normal, bump, height, parallax = None, None, None, None
-    by_normal = by_bump = False
+    fine_normals = fine_bumps = "lost"
+    spreads = []
     if surface.normal is not None:
-        by_normal = _roughens(surface.normal)
-        prepared = Normals(surface.normal.range) if by_normal else None
+        fine_normals = _fine(surface.normal, surface)
         uniforms |= _normal(surface.normal)
-        normal = look_up(surface.normal, prepared)
-        if by_normal:
-            uniforms |= {"normal_range": (1.0, 0.0), "normal_steeper": surface.normal.strength}
+        told = Normals(surface.normal.range, slopes=fine_normals == "streaks")
+        normal = look_up(surface.normal, None if fine_normals == "lost" else told)
+        if fine_normals != "lost":
+            uniforms["normal_range"] = (1.0, 0.0)
+        if fine_normals == "roughness":
+            uniforms["normal_steeper"] = surface.normal.strength
+        if fine_normals == "streaks":
+            spreads.append(Spread("normal", normal, look_up(surface.normal, Products(told)), True))
     if surface.bump is not None:
-        by_bump = _roughens(surface.bump)
+        fine_bumps = _fine(surface.bump, surface)
         uniforms |= _bump(surface.bump)
-        bump = look_up(surface.bump, Decoded(surface.bump.encoding, squares=by_bump))
-        if by_bump:
+        decoded = Decoded(surface.bump.encoding, squares=fine_bumps == "roughness")
+        bump = look_up(surface.bump, decoded)
+        if fine_bumps == "roughness":
             uniforms["bump_steeper"] = surface.bump.range
+        if fine_bumps == "streaks":
+            spreads.append(Spread("bump", bump, look_up(surface.bump, Products(decoded)), True))
     if surface.height is not None:
         uniforms |= _height(surface.height)
         layout = surface.height.layout
         u, v = surface.height.wrap if layout is None else layout.joins
         channel = "rgba".index(surface.height.channel)
-        height = look_up(surface.height, Slopes(channel, (u, v)))
+        slopes = Slopes(channel, (u, v))
+        height = look_up(surface.height, slopes)
+        if surface.height.fine_detail != "lost":
+            streaks = _fine(surface.height, surface) == "streaks"
+            products = look_up(surface.height, Products(slopes))
+            spreads.append(Spread("height", height, products, streaks))
     if surface.parallax is not None:
         uniforms |= _parallax(surface.parallax)
         parallax = look_up(surface.parallax, Flat())
@@ -70,19 +83,25 @@ def lay_out(surface: SurfaceSpec, look_up: LookUp) -> tuple[ReliefLayout, dict[s
         normal=normal,
         normal_space=surface.normal.space if surface.normal else "tangent",
         bump=bump,
-        roughened_by_normal=by_normal,
-        roughened_by_bump=by_bump,
+        roughened_by_normal=fine_normals == "roughness",
+        roughened_by_bump=fine_bumps == "roughness",
         height=height,
         parallax=parallax,
         parallax_method=surface.parallax.method if surface.parallax else "offset",
+        spreads=tuple(spreads),
     )
     return relief, uniforms
 
 
-def _roughens(mapped: NormalMap | BumpMap) -> bool:
-    """Tell whether what is finer than a pixel is told by means of a picture, where there is one."""
-    pictured = mapped.filter != "formula" and not isinstance(mapped.layout, CubeSpec)
-    return mapped.fine_detail == "roughness" and pictured and not is_carved(mapped)
+def _fine(mapped: NormalMap | BumpMap | HeightMap, surface: SurfaceSpec) -> FineDetail:
+    """Tell what becomes of what is finer than a pixel: it is told by means of a picture."""
+    carved = not isinstance(mapped, HeightMap) and is_carved(mapped)
+    if carved or mapped.filter == "formula" or isinstance(mapped.layout, CubeSpec):
+        return "lost"
+    directed = not isinstance(mapped, NormalMap) or mapped.space == "tangent"
+    if mapped.fine_detail == "streaks" and not (directed and surface.streaks):
+        return "roughness"
+    return mapped.fine_detail
 
 
 def _normal(mapped: NormalMap) -> dict[str, Any]:

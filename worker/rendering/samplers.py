@@ -4,7 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from api_schemas.maps import Filter, Wrap
+from api_schemas.families import Wrap
+from api_schemas.maps import Filter
 from worker.rendering.gl_context import GL, floats
 
 _MODE = {

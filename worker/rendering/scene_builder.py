@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 
 from api_schemas.coordinates.uv import UvSpec
 from api_schemas.environment import Surroundings
-from api_schemas.families import SurfaceSpec
 from api_schemas.layouts.cube import CubeSpec
 from api_schemas.layouts.hemispheres import HemispheresSpec
 from api_schemas.lights import Light
 from api_schemas.maps import ColorMap
 from api_schemas.scene import Scene
+from api_schemas.surface_spec import SurfaceSpec
 from api_schemas.surfaces.unlit import UnlitSpec
 from worker.geometry.transforms import Matrix
 from worker.rendering.cookies import Cookies, cookies_of

@@ -10,11 +10,12 @@ from typing import Any, cast
 
 import numpy as np
 
-from api_schemas.families import Meaning, SurfaceSpec, TextureSpec
+from api_schemas.families import Meaning, TextureSpec
 from api_schemas.language import FAMILIES
 from api_schemas.maps import ColorMap, NumberMap
 from api_schemas.relief import AnyMap
 from api_schemas.surface_maps import SurfaceMap
+from api_schemas.surface_spec import SurfaceSpec
 from worker.errors import RenderError
 from worker.images.pyramids import Cut
 from worker.images.relief import Preparation, Unpacked
@@ -117,7 +118,7 @@ def shade(
             PictureLayout(picture.sampling, picture.texture.format) for picture in pictures
         ),
         tables=tuple(tables),
-        streaked=surface.needs_tangents,
+        streaked=surface.is_streaked,
     )
     uniforms = plan.uniforms | plan.lookups.uniforms()
     return Shading(layout, uniforms, pictures, surface.double_sided)

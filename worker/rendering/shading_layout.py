@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 from typing import Literal
 
-from api_schemas.families import AlphaMode
 from api_schemas.maps import Filter
+from api_schemas.surface_spec import AlphaMode
 from worker.rendering.calls import Call
 from worker.rendering.samplers import Sampling
 from worker.rendering.textures import TextureFormat
@@ -74,10 +74,17 @@ class PictureLayout:
 
 @dataclass(frozen=True, slots=True)
 class CookieLayout:
-    """A picture before a light: how texels become a pixel, and its texture unit."""
+    """A picture before a light.
+
+    Attributes:
+        filter: How texels become a pixel.
+        picture: Its texture unit.
+        call: Which says how directions lie on it, if it is all round the light.
+    """
 
     filter: Filter
     picture: PictureLayout
+    call: Call | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,6 +110,23 @@ class LightLayout:
 
 
 @dataclass(frozen=True, slots=True)
+class Spread:
+    """How slopes that are finer than a pixel vary, told by two readings of a map.
+
+    Attributes:
+        of: Which map it is.
+        means: The lookup of its slopes.
+        products: The lookup of their products.
+        streaks: Whether that makes highlights longer in one direction, or wider in all.
+    """
+
+    of: Literal["normal", "bump", "height"]
+    means: int
+    products: int
+    streaks: bool
+
+
+@dataclass(frozen=True, slots=True)
 class ReliefLayout:
     """What moves and tilts a point before anything else is read.
 
@@ -115,6 +139,7 @@ class ReliefLayout:
         height: The lookup of a relief's heights and slopes.
         parallax: The lookup of a relief that the eye looks into.
         parallax_method: How it looks.
+        spreads: How fine slopes vary, where that is told by products.
     """
 
     normal: int | None
@@ -125,11 +150,12 @@ class ReliefLayout:
     height: int | None
     parallax: int | None
     parallax_method: Literal["offset", "occlusion"]
+    spreads: tuple[Spread, ...]
 
     @property
     def tilting(self) -> tuple[int, ...]:
-        """The lookups that tilt the normal."""
-        found = (self.normal, self.bump, self.height)
+        """The lookups that tilt the normal, and tell how it varies."""
+        found = (self.normal, self.bump, self.height, *(one.products for one in self.spreads))
         return tuple(lookup for lookup in found if lookup is not None)
 
 

@@ -7,13 +7,13 @@ import hashlib
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from api_schemas.environment import Environment
-from api_schemas.families import Meaning, SurfaceSpec, TextureSpec
+from api_schemas.families import Meaning, TextureSpec
 from api_schemas.language import FAMILIES
 from api_schemas.layouts.cube import CubeSpec
 from api_schemas.layouts.hemispheres import HemispheresSpec
@@ -36,6 +36,9 @@ from worker.rendering.sky_harmonics import comes_from_below, harmonics_in
 from worker.rendering.sky_lamps import lamps_of
 from worker.rendering.texture_maker import TextureMaker
 from worker.rendering.textures import Texture
+
+if TYPE_CHECKING:
+    from api_schemas.surface_spec import SurfaceSpec
 
 CUBES_BYTES_MAX = 64 << 20
 _UNITS = {"sky_picture": 23, "sky_rough": 24, "sky_matt": 25, "sky_lamps": 23}

@@ -41,9 +41,10 @@ from api_schemas.maps import DATA
 from api_schemas.own_size import Size, size_within
 from api_schemas.parameters import ParameterMap
 from api_schemas.textures.image import ImageSpec
-from api_schemas.walk import is_in_space, meaning_of
+from api_schemas.walk import fields_within, is_in_space, meaning_of
 from worker.closed_form import ClosedForm
 from worker.images.volume import Volume
+from worker.numba_kernel import compiled_once
 from worker.outcome import Outcome
 from worker.stages import silent
 
@@ -209,7 +210,7 @@ def techniques() -> list[str]:
 
 
 def warm(report: Report) -> None:
-    """Compile every kernel, or load it from the cache; `report` gets share done and name."""
+    """Compile every kernel that no process has; `report` gets share done and name."""
     names = techniques()
     for done, name in enumerate(names):
         report(done / len(names), name)
@@ -217,10 +218,14 @@ def warm(report: Report) -> None:
 
 
 def compile_kernels(technique: str) -> None:
-    """Compile the kernels of one technique, or load them from the cache."""
-    module = _module(technique)
-    if hasattr(module, "warm"):
-        module.warm()
+    """Compile the kernels of one technique, unless the cache has them."""
+
+    def compile_all() -> None:
+        module = _module(technique)
+        if hasattr(module, "warm"):
+            module.warm()
+
+    compiled_once(technique, compile_all)
 
 
 def _fill(
@@ -241,8 +246,7 @@ def _slots(spec: TextureSpec, meaning: Meaning) -> dict[str, tuple[TextureSpec, 
     if isinstance(spec, PresetSpec):
         return {"composed": (spec.composed(), meaning)}
     slots = {}
-    for name, field in type(spec).model_fields.items():
-        value = getattr(spec, name)
+    for name, field, value in fields_within(spec):
         if isinstance(value, TextureSpec) and not is_in_space(field):
             slots[name] = (value, meaning_of(field, meaning))
         elif isinstance(value, ParameterMap):

@@ -111,7 +111,7 @@ def _sum_all(
 ) -> None:
     for block in prange((len(directions) + 15) // 16):
         total = np.empty(4)
-        stack = np.empty((64, 4), np.int64)
+        stack = np.empty((64, 3), np.int64)
         near = np.empty(len(size))
         fill_near(near, reach, 0.0)
         for index in range(block * 16, min(block * 16 + 16, len(directions))):
@@ -122,14 +122,51 @@ def _sum_all(
 
 
 @kernel
-def push_quarters(stack: NDArray[np.int64], held: int, level: int, row: int, column: int) -> int:
-    """Put the four smaller pieces of one on a stack; return how many it holds then."""
-    for child in range(4):
-        stack[held, 0] = level - 1
-        stack[held, 1] = 2 * row + (child >> 1)
-        stack[held, 2] = 2 * column + (child & 1)
-        held += 1
-    return held
+def next_piece(
+    stack: NDArray[np.int64],
+    held: int,
+    face: int,
+    light: Pieces,
+    size: Floats,
+    near: Floats,
+    middle: Floats,
+    spread: float,
+) -> tuple[int, int]:
+    """Take pieces of a face off a stack until one is small enough for some directions.
+
+    Larger ones make way for their quarters, those that are behind all directions for nothing.
+
+    Args:
+        stack: Level, row and column of the pieces that are left, (64, 3).
+        held: How many there are.
+        face: Of the cube.
+        light: All pieces.
+        size: Of each level's.
+        near: From `fill_near`.
+        middle: The direction in the middle of those.
+        spread: How far the others are from it.
+
+    Returns:
+        How many are left then, and which texel of `light` it is: -1 if there is none.
+    """
+    x, y, z = middle[0], middle[1], middle[2]
+    while held > 0:
+        held -= 1
+        level, row, column = stack[held, 0], stack[held, 1], stack[held, 2]
+        side = light.sides[level]
+        at = light.starts[level] + (face * side + row) * side + column
+        texels = light.texels
+        cosine = x * texels[at, 0] + y * texels[at, 1] + z * texels[at, 2]
+        if cosine < -size[level] - spread:
+            continue
+        if level == 0 or cosine <= near[level]:
+            return held, at
+        for child in range(4):
+            stack[held, 0] = level - 1
+            stack[held, 1] = 2 * row + (child >> 1)
+            stack[held, 2] = 2 * column + (child & 1)
+            held += 1
+    return 0, -1
 
 
 @kernel
@@ -148,18 +185,9 @@ def add_up(
     texels = light.texels
     for face in range(6):
         stack[0, 0], stack[0, 1], stack[0, 2] = len(light.sides) - 1, 0, 0
-        held = 1
-        while held > 0:
-            held -= 1
-            level, row, column = stack[held, 0], stack[held, 1], stack[held, 2]
-            side = light.sides[level]
-            at = light.starts[level] + (face * side + row) * side + column
+        held, at = next_piece(stack, 1, face, light, size, near, direction, 0.0)
+        while at >= 0:
             cosine = x * texels[at, 0] + y * texels[at, 1] + z * texels[at, 2]
-            if cosine < -size[level]:
-                continue  # all of it is behind
-            if level > 0 and cosine > near[level]:
-                held = push_quarters(stack, held, level, row, column)
-                continue
             if cosine > 0:
                 total[0] += texels[at, 3] * value(kind, sharpness, cosine)
             cosine = x * texels[at, 4] + y * texels[at, 5] + z * texels[at, 6]
@@ -168,6 +196,7 @@ def add_up(
                 total[1] += weight * texels[at, 7]
                 total[2] += weight * texels[at, 8]
                 total[3] += weight * texels[at, 9]
+            held, at = next_piece(stack, held, face, light, size, near, direction, 0.0)
 
 
 @kernel

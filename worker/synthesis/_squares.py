@@ -12,7 +12,7 @@ import numpy as np
 
 from worker.numba_kernel import kernel, parallel_kernel, prange
 from worker.synthesis._lobes import PHONG, phong, value
-from worker.synthesis._pieces import add_up, fill_near, pieces, push_quarters, sizes
+from worker.synthesis._pieces import add_up, fill_near, next_piece, pieces, sizes
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -58,7 +58,7 @@ def _sum_squares(
     for square in prange((height + _SIDE - 1) // _SIDE * across):
         top, left = square // across * _SIDE, square % across * _SIDE
         ways, totals = np.empty((3, _PIXELS)), np.zeros((4, _PIXELS))
-        stack, near = np.empty((64, 4), np.int64), np.empty(len(size))
+        stack, near = np.empty((64, 3), np.int64), np.empty(len(size))
         middle = np.empty(3)
         # Beyond the picture's edge its last pixels stand in.
         for pixel in range(_PIXELS):
@@ -118,24 +118,14 @@ def _sum_square(
     weights = np.empty(_PIXELS)
     for face in range(6):
         stack[0, 0], stack[0, 1], stack[0, 2] = len(light.sides) - 1, 0, 0
-        held = 1
-        while held > 0:
-            held -= 1
-            level, row, column = stack[held, 0], stack[held, 1], stack[held, 2]
-            side = light.sides[level]
-            at = light.starts[level] + (face * side + row) * side + column
-            x, y, z = texels[at, 0], texels[at, 1], texels[at, 2]
-            cosine = middle[0] * x + middle[1] * y + middle[2] * z
-            if cosine < -size[level] - spread:
-                continue  # all of it is behind, for all of them
-            if level > 0 and cosine > near[level]:
-                held = push_quarters(stack, held, level, row, column)
-                continue
-            _weigh(weights, kind, sharpness, ways, x, y, z)
+        held, at = next_piece(stack, 1, face, light, size, near, middle, spread)
+        while at >= 0:
+            _weigh(weights, kind, sharpness, ways, texels[at, 0], texels[at, 1], texels[at, 2])
             _add(totals[0], weights, texels[at, 3])
             _weigh(weights, kind, sharpness, ways, texels[at, 4], texels[at, 5], texels[at, 6])
             for channel in range(1, 4):
                 _add(totals[channel], weights, texels[at, 6 + channel])
+            held, at = next_piece(stack, held, face, light, size, near, middle, spread)
 
 
 @kernel

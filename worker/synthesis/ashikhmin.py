@@ -26,14 +26,10 @@ from worker.synthesis.by_example.wishes import Wishes
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from numpy.typing import NDArray
-
     from worker.outcome import Outcome
     from worker.stages import Report
+    from worker.synthesis.by_example.arrays import Bytes, Integers, Mask
 
-    Bytes = NDArray[np.uint8]
-    Mask = NDArray[np.bool_]
-    Integers = NDArray[np.int32]
 
 _FIRST_TRIES = 32
 

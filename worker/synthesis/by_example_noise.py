@@ -66,14 +66,15 @@ def synthesize(
     places, weights = _pieces((height, width), max(1, side // 2), middles, spec.seed)
     report(0.3, "blending")
     picture = inputs.get("picture", exemplar.image)
-    gaussian = to_gaussian(picture.pixels.astype(np.float64))
+    straight = np.nan_to_num(picture.pixels, posinf=3e38, neginf=-3e38)
+    gaussian = to_gaussian(straight.astype(np.float64))
     limits = np.array(exemplar.shape) - 1
     blended = blend(
         np.stack([gaussian.values[tuple(np.minimum(p, limits).T)] for p in places]), weights
     )
     report(0.7, "giving back the histogram")
     pixels = from_gaussian(blended, gaussian).reshape(height, width, -1)
-    low, high = picture.pixels.min(axis=(0, 1)), picture.pixels.max(axis=(0, 1))
+    low, high = straight.min(axis=(0, 1)), straight.max(axis=(0, 1))
     image = np.clip(pixels.astype(np.float32), low, high)
     return Outcome(Image(resample(image, size), picture.meaning))
 
@@ -81,7 +82,7 @@ def synthesize(
 def to_gaussian(pixels: Numbers) -> Gaussian:
     """Replace the values along each principal axis by those of a Gaussian of the same ranks."""
     height, width, channels = pixels.shape
-    colours = np.nan_to_num(pixels.reshape(-1, channels), posinf=3e38, neginf=-3e38)
+    colours = pixels.reshape(-1, channels)
     middle = colours.mean(axis=0)
     axes = np.linalg.eigh(np.atleast_2d(np.cov(colours.T, bias=True)))[1]
     along = (colours - middle) @ axes

@@ -35,10 +35,8 @@ if TYPE_CHECKING:
 
     from worker.outcome import Outcome
     from worker.stages import Report
+    from worker.synthesis.by_example.arrays import Bytes, Integers, Mask
 
-    Bytes = NDArray[np.uint8]
-    Mask = NDArray[np.bool_]
-    Integers = NDArray[np.int32]
 
 _SEED_SIDE = 3
 _FIRST_BOUND = 0.3

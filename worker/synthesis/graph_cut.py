@@ -16,9 +16,9 @@ import numpy as np
 from worker.outcome import Outcome
 from worker.synthesis._counter_hash import uniforms
 from worker.synthesis.by_example.exemplar import Exemplar
-from worker.synthesis.by_example.flow_cut import Pairs, least_cut
 from worker.synthesis.by_example.placing import Placing, Squares
 from worker.synthesis.by_example.result import finished, gathered
+from worker.synthesis.by_example.sewing import NEIGHBOURS, Seams, sewn
 from worker.synthesis.by_example.views import Views, square
 
 if TYPE_CHECKING:
@@ -30,13 +30,10 @@ if TYPE_CHECKING:
     from worker.images.image import Image
     from worker.preview import Progress
 
-    Mask = NDArray[np.bool_]
     Integers = NDArray[np.int64]
 
 _USE_OF_SHIFTS = 16
 """Those before are of the squares of each pass."""
-
-_NEIGHBOURS = (((0, 1), np.s_[:, :-1], np.s_[:, 1:]), ((1, 0), np.s_[:-1], np.s_[1:]))
 
 
 def synthesize(
@@ -50,7 +47,7 @@ def synthesize(
     exemplar = Exemplar.of(inputs)
     views = Views.of(exemplar, turns=spec.turns, flips=spec.flips)
     canvas = _Canvas.of(spec, exemplar)
-    placing = Placing(views, canvas.side)
+    placing, seams = Placing(views, canvas.side), Seams.of(views, canvas.side)
     energies: list[int] = []
     for done in range(spec.passes + 1):
         corners = list(canvas.corners(spec.seed, done))
@@ -58,8 +55,8 @@ def synthesize(
         for index, corner in enumerate(corners):
             share = (done + index / len(corners)) / (spec.passes + 1)
             report(share, f"pass {done} of {spec.passes}")
-            _lay(canvas, views, placing, corner, spec.tolerance, chances[index])
-        energies.append(_energy(canvas, views))
+            _lay(canvas, seams, placing, corner, spec.tolerance, chances[index])
+        energies.append(_energy(canvas, seams))
         so_far = gathered(views.sources(canvas.result(spec.size)), exemplar.image)
         report((done + 1) / (spec.passes + 1), "so far", so_far)
     spots = canvas.result(spec.size)
@@ -129,7 +126,7 @@ class _Canvas:
 
 def _lay(
     canvas: _Canvas,
-    views: Views,
+    seams: Seams,
     placing: Placing,
     corner: tuple[int, int],
     tolerance: float,
@@ -140,72 +137,26 @@ def _lay(
     old = canvas.spots[there]
     known = old[..., 0] >= 0
     inner = np.s_[1:-1, 1:-1]
-    if known[inner].all() and not _seams(views, old, known).any():
+    before = seams.all_seen(old, known)
+    if known[inner].all() and not before.any():
         return
-    colours = views.colours(np.where(known[..., np.newaxis], old, 0)[inner])
-    chosen = placing.chosen(colours, known[inner], tolerance, chance)
-    new = square(chosen, canvas.side, 1)
+    colours = seams.views.colours(np.where(known[..., np.newaxis], old, 0)[inner])
+    new = square(placing.chosen(colours, known[inner], tolerance, chance), canvas.side, 1)
     inside = np.zeros(known.shape, bool)
     inside[inner] = True
-    numbers = np.arange(known.size).reshape(known.shape)
-    parts = []
-    for step, first, second in _NEIGHBOURS:
-        matters = (inside[first] | inside[second]) & (inside | known)[first]
-        matters &= (inside | known)[second] & (known[first] | known[second])
-        fresh = new[first][matters], new[second][matters]
-        before = _both_known(old[first][matters], old[second][matters], step)
-        parts.append(
-            Pairs(
-                numbers[first][matters],
-                numbers[second][matters],
-                _seam(views, *before, step),
-                _seam(views, before[0], fresh[1], step),
-                _seam(views, fresh[0], before[1], step),
-            )
-        )
-    pairs = Pairs(*map(np.concatenate, zip(*parts, strict=True)))
-    shown = least_cut(pairs, (~inside).ravel(), (inside & ~known).ravel()).reshape(known.shape)
+    made = sewn(seams, old, new, inside)
+    # What was known may have been taken to cost less than it does
+    if known[inner].all() and seams.all_seen(made, known).sum() >= before.sum():
+        return
     place = tuple(index[1:-1] if index.ndim == 1 else index[1:-1, :] for index in there)
-    canvas.spots[place] = np.where(shown[..., np.newaxis], new, old)[inner]
+    canvas.spots[place] = made[inner]
 
 
-def _both_known(
-    first: Integers, second: Integers, step: tuple[int, int]
-) -> tuple[Integers, Integers]:
-    """Return spots of neighbours; what is not known of a pair goes on from what is."""
-    move = np.array([0, *step])
-    return (
-        np.where(first[..., :1] < 0, second - move, first),
-        np.where(second[..., :1] < 0, first + move, second),
-    )
-
-
-def _seam(views: Views, first: Integers, second: Integers, step: tuple[int, int]) -> Integers:
-    """Return how much is seen of the seam between neighbours, each from a square of its own.
-
-    It is how much the two squares differ at both pixels; that of three squares obeys the triangle
-    inequality.
-    """
-    move = np.array([0, *step])
-    apart = np.abs(views.colours(first) - views.colours(second - move))
-    apart += np.abs(views.colours(first + move) - views.colours(second))
-    return np.asarray(apart.sum(axis=-1))
-
-
-def _seams(views: Views, spots: Integers, known: Mask) -> Integers:
-    """Return how much is seen of each seam among spots, of which only known ones count."""
-    found = []
-    for step, first, second in _NEIGHBOURS:
-        both = known[first] & known[second]
-        found.append(_seam(views, spots[first][both], spots[second][both], step))
-    return np.concatenate(found)
-
-
-def _energy(canvas: _Canvas, views: Views) -> int:
+def _energy(canvas: _Canvas, seams: Seams) -> int:
     """Return how much is seen of all seams together."""
     total = 0
-    for step, _, _ in _NEIGHBOURS:
+    for step, _, _ in NEIGHBOURS:
         beside = np.roll(canvas.spots, (-step[0], -step[1]), (0, 1))
         both = (canvas.spots[..., 0] >= 0) & (beside[..., 0] >= 0)
-        total += int(_seam(views, canvas.spots[both], beside[both], step).sum())
+        total += int(seams.seen(canvas.spots[both], beside[both], step).sum())
     return total

@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     Pixels = NDArray[np.float32]
 
 _ROUNDS = 32
+_MOST = np.float32(1e30)
 
 
 def synthesize(
@@ -74,6 +75,7 @@ def synthesize(
 def back_projected(large: Pixels, small: Pixels) -> tuple[Pixels, float]:
     """Change a large picture until, made small, it is a given one; return the largest rest."""
     size = (small.shape[1], small.shape[0])
+    large, small = _workable(large), _workable(small)
     residual = np.inf
     for _ in range(_ROUNDS):
         rest = small - resample(large, size)
@@ -82,3 +84,8 @@ def back_projected(large: Pixels, small: Pixels) -> tuple[Pixels, float]:
             break
         large = large + resample(rest, (large.shape[1], large.shape[0]))
     return large, residual
+
+
+def _workable(pixels: Pixels) -> Pixels:
+    """Return numbers that can be added up: what is none is 0, what is endless is only huge."""
+    return np.clip(np.nan_to_num(pixels), -_MOST, _MOST)

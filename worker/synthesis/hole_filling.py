@@ -14,11 +14,11 @@ if TYPE_CHECKING:
     from api_schemas.textures.hole_filling import HoleFillingSpec
     from worker.images.image import Image
     from worker.outcome import Outcome
-    from worker.stages import Report
+    from worker.preview import Progress
 
 
 def synthesize(
-    spec: HoleFillingSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Report
+    spec: HoleFillingSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Progress
 ) -> Outcome:
     """Fill the hole, and bring the picture to (width, height).
 
@@ -29,5 +29,5 @@ def synthesize(
     hole = inputs["hole"].pixels[..., 0] >= 0.5
     place = unmoved(exemplar.shape)
     place[hole] = -1
-    place = filled(exemplar.features, exemplar.usable & ~hole, place, spec.seed, report)
+    place = filled(exemplar, exemplar.usable & ~hole, place, spec.seed, report)
     return finished(place, exemplar, inputs, size)

@@ -19,13 +19,13 @@ if TYPE_CHECKING:
     from api_schemas.textures.image_shuffling import ImageShufflingSpec
     from worker.images.image import Image
     from worker.outcome import Outcome
-    from worker.stages import Report
+    from worker.preview import Progress
 
     Mask = NDArray[np.bool_]
 
 
 def synthesize(
-    spec: ImageShufflingSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Report
+    spec: ImageShufflingSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Progress
 ) -> Outcome:
     """Move the region, fill around it, and bring the picture to (width, height).
 
@@ -46,7 +46,7 @@ def synthesize(
     arrived = inside & region[rows, columns]
     place[_grown(region, spec.margin) | _grown(arrived, spec.margin)] = -1
     place[arrived] = moved[arrived]
-    place = filled(exemplar.features, exemplar.usable & ~region, place, spec.seed, report)
+    place = filled(exemplar, exemplar.usable & ~region, place, spec.seed, report)
     return finished(place, exemplar, inputs, size)
 
 

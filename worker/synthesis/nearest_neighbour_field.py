@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
@@ -17,6 +17,8 @@ from worker.synthesis.by_example.several_nearest import (
     several_exactly,
     several_quickly,
 )
+from worker.synthesis.by_example.turned_match import TurnedField, turned_field
+from worker.synthesis.by_example.turned_patches import Pair
 from worker.synthesis.by_example.windows import fitting_side
 
 if TYPE_CHECKING:
@@ -28,6 +30,10 @@ if TYPE_CHECKING:
     from worker.stages import Report
 
     Bytes = NDArray[np.uint8]
+    Layers = dict[str, NDArray[np.int64] | NDArray[np.float64]]
+
+AnyField = TypeVar("AnyField", Field, SeveralField, TurnedField)
+Number = TypeVar("Number", bound=np.generic)
 
 
 def synthesize(
@@ -46,31 +52,78 @@ def synthesize(
     exemplar = Exemplar.of(inputs)
     target = exemplar.matching(inputs["target"])
     side = fitting_side(exemplar.usable, target.shape[:2], spec.patch)
-    fields, energies = _search(spec, exemplar, target, side, report)
-    beside: dict[str, NDArray[np.generic]] = {}
-    for rank, field in enumerate(fields):
-        name = f"_{rank + 1}" if rank else ""
-        offsets = _over_pixels(_offsets(field), target.shape[:2], side).astype(np.int64)
-        distances = np.sqrt(field.costs / (side * side * target.shape[2])) / 255
-        distances = np.where(field.costs < NEVER, distances, 1.0)[..., np.newaxis]
-        beside[f"offset{name}"] = offsets[..., ::-1]
-        beside[f"distance{name}"] = _over_pixels(distances, target.shape[:2], side)
-    offsets = beside["offset"][..., ::-1].astype(np.int64)
+    find = _turned if spec.turned else _as_they_lie
+    found, energies = find(spec, exemplar, target, side, report)
+    offsets = np.rint(found["offset"][..., ::-1])
     place = (np.moveaxis(np.indices(target.shape[:2]), 0, -1) + offsets).astype(np.int32)
     made = finished(place, exemplar, inputs, size)
     return Outcome(
         made.image,
-        {**made.layers, **{name: _layer(values, size) for name, values in beside.items()}},
+        {**made.layers, **{name: _layer(values, size) for name, values in found.items()}},
         {**made.report, "patch": side, "energies": [round(energy, 3) for energy in energies]},
     )
 
 
 def warm() -> None:
-    """Compile the kernels of several places."""
+    """Compile the kernels of several places, and of turned patches."""
     features = np.arange(75, dtype=np.uint8).reshape(5, 5, 3)
-    passes = several_quickly(features, features, np.ones((5, 5), bool), 3, 0, 2)
-    next(passes)
-    next(passes)
+    pictures = features, features, np.ones((5, 5), bool)
+    several = several_quickly(*pictures, 3, 0, 2)
+    turned = turned_field(Pair.of(*pictures, 3, 1.0, 2.0), 0)
+    for _ in range(2):
+        next(several)
+        next(turned)
+
+
+def _as_they_lie(
+    spec: NearestNeighbourFieldSpec, exemplar: Exemplar, target: Bytes, side: int, report: Report
+) -> tuple[Layers, list[float]]:
+    """Return layers of the nearest patches, of the second nearest, and so on; and energies."""
+    fields, energies = _search(spec, exemplar, target, side, report)
+    layers: Layers = {}
+    for rank, field in enumerate(fields):
+        name = f"_{rank + 1}" if rank else ""
+        distances = _distances(field.costs, side, target.shape[2])
+        layers[f"offset{name}"] = _over_pixels(_offsets(field), target.shape[:2], side)[..., ::-1]
+        layers[f"distance{name}"] = _over_pixels(distances, target.shape[:2], side)
+    return layers, energies
+
+
+def _turned(
+    spec: NearestNeighbourFieldSpec, exemplar: Exemplar, target: Bytes, side: int, report: Report
+) -> tuple[Layers, list[float]]:
+    """Return layers of the nearest patches, however they lie, and energies."""
+    ways = spec.rotations, spec.scales
+    pair = Pair.of(target, exemplar.features, exemplar.usable, side, *ways)
+    field, energies = _improved(turned_field(pair, spec.seed), spec.iterations, report)
+    shape = target.shape[:2]
+    over = TurnedField(*(_over_pixels(part, shape, side) for part in field))
+    pixels = [np.arange(length, dtype=np.float64) for length in shape]
+    middles = [
+        np.clip(steps - side // 2, 0, length - side) + (side - 1) / 2
+        for steps, length in zip(pixels, shape, strict=True)
+    ]
+    beside = [steps - middle for steps, middle in zip(pixels, middles, strict=True)]
+    places = over.places(beside[0][:, np.newaxis], beside[1])
+    places = np.clip(places, 0, np.array(exemplar.shape) - 1)
+    return {
+        "offset": (places - np.moveaxis(np.indices(shape), 0, -1))[..., ::-1],
+        "distance": _distances(over.costs, side, target.shape[2]),
+        "angle": over.radians[..., np.newaxis],
+        "scale": over.factors[..., np.newaxis],
+    }, energies
+
+
+def _improved(
+    passes: Iterator[AnyField], iterations: int, report: Report
+) -> tuple[AnyField, list[float]]:
+    """Return what some passes make of a field, and its energy before, between and after them."""
+    energies = []
+    for done in range(iterations + 1):
+        found = next(passes)
+        energies.append(_energy(found))
+        report((done + 1) / (iterations + 1), f"pass {done} of {iterations}")
+    return found, energies
 
 
 def _search(
@@ -84,17 +137,14 @@ def _search(
             return _each(exact), [_energy(exact)]
         field = exact_field(target, source, usable, side, report)
         return [field], [_energy(field)]
-    passes: Iterator[Field | SeveralField] = (
-        several_quickly(target, source, usable, side, spec.seed, spec.nearest)
-        if several
-        else quick_field(target, source, usable, side, spec.seed)
+    if several:
+        quick = several_quickly(target, source, usable, side, spec.seed, spec.nearest)
+        some, energies = _improved(quick, spec.iterations, report)
+        return _each(some), energies
+    found, energies = _improved(
+        quick_field(target, source, usable, side, spec.seed), spec.iterations, report
     )
-    energies = []
-    for done in range(spec.iterations + 1):
-        found = next(passes)
-        energies.append(_energy(found))
-        report((done + 1) / (spec.iterations + 1), f"pass {done} of {spec.iterations}")
-    return ([found] if isinstance(found, Field) else _each(found)), energies
+    return [found], energies
 
 
 def _each(field: SeveralField) -> list[Field]:
@@ -107,7 +157,7 @@ def _each(field: SeveralField) -> list[Field]:
     return found
 
 
-def _energy(field: Field | SeveralField) -> float:
+def _energy(field: Field | SeveralField | TurnedField) -> float:
     """Return the mean cost of what was found."""
     return float(field.costs[field.costs < NEVER].mean())
 
@@ -118,16 +168,20 @@ def _offsets(field: Field) -> NDArray[np.int64]:
     return np.stack([field.rows - here[0], field.columns - here[1]], axis=-1)
 
 
-def _over_pixels(
-    values: NDArray[np.generic], shape: tuple[int, ...], side: int
-) -> NDArray[np.generic]:
+def _distances(costs: NDArray[np.int32], side: int, channels: int) -> NDArray[np.float64]:
+    """Return roots of mean squares, 0..1; 1 where nothing was found, (.., 1)."""
+    distances = np.sqrt(costs / (side * side * channels)) / 255
+    return np.where(costs < NEVER, distances, 1.0)[..., np.newaxis]
+
+
+def _over_pixels(values: NDArray[Number], shape: tuple[int, ...], side: int) -> NDArray[Number]:
     """Give the middle pixels of patches their values, and the border those of its nearest."""
     before = side // 2
     margins = [
         (before, length - count - before)
         for length, count in zip(shape, values.shape[:2], strict=True)
     ]
-    return np.pad(values, [*margins, (0, 0)], mode="edge")
+    return np.pad(values, margins + [(0, 0)] * (values.ndim - 2), mode="edge")
 
 
 def _layer(values: NDArray[np.generic], size: tuple[int, int]) -> Image:

@@ -21,15 +21,11 @@ from worker.synthesis.by_example.task import Task
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from numpy.typing import NDArray
-
     from api_schemas.textures.retargeting import RetargetingSpec
     from worker.images.image import Image
     from worker.outcome import Outcome
     from worker.preview import Progress
-
-    Bytes = NDArray[np.uint8]
-    Integers = NDArray[np.int32]
+    from worker.synthesis.by_example.arrays import Integers
 
 
 def synthesize(

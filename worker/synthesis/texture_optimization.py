@@ -13,7 +13,7 @@ from worker.stages import silent
 from worker.synthesis.by_example.exemplar import Exemplar
 from worker.synthesis.by_example.features import edge_distance, weighed
 from worker.synthesis.by_example.optimisation import optimise
-from worker.synthesis.by_example.result import finished, gathered
+from worker.synthesis.by_example.result import finished, gathered, nearest
 from worker.synthesis.by_example.task import Task
 from worker.synthesis.by_example.wishes import Wishes
 
@@ -52,6 +52,7 @@ def synthesize(
         guides=wishes.guides,
         variety=spec.variety,
         longest_copy=0.5,
+        smallest=exemplar.smallest,
     )
     if wishes.keep is not None:
         kept = _compared(exemplar.matching(wishes.keep), spec.outlines, wishes.share)
@@ -64,7 +65,10 @@ def synthesize(
         report(share, step)
 
     def show(place: Integers) -> None:
-        report(told, "so far", gathered(place, exemplar.image))
+        kept = wishes.keep
+        if kept is not None:
+            kept = Image(nearest(kept.pixels, (place.shape[1], place.shape[0])), kept.meaning)
+        report(told, "so far", gathered(place, exemplar.image, kept))
 
     return finished(optimise(task, tell, show), exemplar, inputs, size, wishes.keep)
 

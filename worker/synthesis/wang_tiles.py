@@ -1,25 +1,25 @@
-"""Wang tiles cut from an exemplar (Cohen et al., 2003).
+"""Wang tiles cut from an exemplar (Cohen et al., 2003; Lagae and Dutre, 2006).
 
-A kind of edge is a square piece of the exemplar, in whose middle the edge runs: of two tiles that
-meet there each shows its half. Within a tile pieces meet along the diagonals, where the seam that
-differs least is cut (Efros and Freeman, 2001). Of some choices of pieces the one with the least
-seams is taken. All sixteen tiles of two kinds for each direction are there, so that the kinds of
-all edges of a tiling may be picked by chance; edges at the rim of the picture are those opposite.
+Kinds of corners are strewn by chance, and between any four there is a tile: an edge is of the kind
+that its two corners name. All tiles of the kinds are there, so nothing else restricts the order.
+Corners at the rim of the picture are those opposite.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
+from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from api_schemas.textures.wang_tiles import TRIES
+from worker.errors import RenderError
 from worker.images.image import Image
 from worker.outcome import Outcome
-from worker.synthesis._counter_hash import hashes
-from worker.synthesis._resample import resample
-from worker.synthesis._seams import least_seam
-from worker.synthesis._seams import warm as warm_seams
+from worker.synthesis._counter_hash import uniforms
+from worker.synthesis.by_example.exemplar import Exemplar
+from worker.synthesis.by_example.result import finished
+from worker.synthesis.by_example.tile_set import Corners, TileSet
+from worker.synthesis.by_example.windows import whole_windows
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -29,108 +29,87 @@ if TYPE_CHECKING:
     from api_schemas.textures.wang_tiles import WangTilesSpec
     from worker.stages import Report
 
-Pixels: TypeAlias = "NDArray[np.float32]"
+    Integers = NDArray[np.int64]
 
-_USE_OF_PIECES, _USE_OF_ROWS, _USE_OF_COLUMNS = 0, 1, 2
+_USE_OF_KINDS, _USE_OF_VARIANTS = 2**31, 2**31 + 1
+"""Those before are of the squares of the tiles."""
 
 
 def synthesize(
     spec: WangTilesSpec, size: tuple[int, int], inputs: Mapping[str, Image], report: Report
 ) -> Outcome:
-    """Cut tiles of `inputs["input"]`, lay them, and bring them to (width, height)."""
-    image = inputs["input"]
-    tiles, seam = tile_set(image.pixels, spec.half_side, spec.seed)
+    """Cut tiles of `inputs["input"]`, lay them, and bring them to (width, height).
+
+    Raises:
+        RenderError: Nowhere in the exemplar a square as large as a tile may be copied.
+    """
+    exemplar = Exemplar.of({"exemplar": inputs["input"]})
     columns, rows = spec.tiles
-    numbers = numbers_of(rows, columns, spec.seed)
+    numbers = numbers_of(rows, columns, spec)
+    used, places = np.unique(numbers, return_inverse=True)
+    tiles = tiles_of(exemplar, spec, used, report)
     side = 2 * spec.half_side
-    laid = tiles[numbers].transpose(0, 2, 1, 3, 4).reshape(rows * side, columns * side, -1)
+    laid = tiles[places.reshape(rows, columns)].transpose(0, 2, 1, 3, 4)
+    place = laid.reshape(rows * side, columns * side, 2)
+    made = finished(place, exemplar, {}, size)
     width, height = size
     shown = numbers[np.ix_(np.arange(height) * rows // height, np.arange(width) * columns // width)]
+    layer = Image(shown.astype(np.float32)[..., np.newaxis], "data")
     return Outcome(
-        Image(resample(np.ascontiguousarray(laid), size), image.meaning),
-        {"tile": Image(shown.astype(np.float32)[..., np.newaxis], "data")},
-        {"tiles_used": len(np.unique(numbers)), "seam_error": seam},
+        made.image, {**made.layers, "tile": layer}, {**made.report, "tiles_used": len(used)}
     )
 
 
-def numbers_of(rows: int, columns: int, seed: int) -> NDArray[np.int64]:
-    """Return the number of each tile, (rows, columns): its edges' kinds, picked by chance."""
+def numbers_of(rows: int, columns: int, spec: WangTilesSpec) -> Integers:
+    """Return the number of each tile, (rows, columns), of corners picked by chance."""
     count = rows * columns
-    top, left = (
-        (hashes(seed, use, count) >> np.uint64(63)).astype(np.int64).reshape(rows, columns)
-        for use in (_USE_OF_ROWS, _USE_OF_COLUMNS)
+    kinds, variants = (
+        (uniforms(spec.seed, use, count) * choices).astype(np.int64).reshape(rows, columns)
+        for use, choices in ((_USE_OF_KINDS, spec.kinds), (_USE_OF_VARIANTS, spec.variants))
     )
-    numbers: NDArray[np.int64] = 8 * top + 4 * np.roll(left, -1, 1) + 2 * np.roll(top, -1, 0) + left
-    return numbers
+    right, below = np.roll(kinds, -1, 1), np.roll(kinds, -1, 0)
+    numbers = kinds
+    for kind in (right, np.roll(right, -1, 0), below):
+        numbers = numbers * spec.kinds + kind
+    return numbers * spec.variants + variants
 
 
-def tile_set(exemplar: Pixels, half: int, seed: int) -> tuple[Pixels, float]:
-    """Return all tiles by number, (16, side, side, channels), and their seams' mean error."""
-    found: tuple[float, list[Pixels]] | None = None
-    for attempt in range(TRIES):
-        pieces = _pieces(exemplar, half, seed, attempt)
-        quarters = {key: _quarter(pieces, half, *key) for key in np.ndindex(2, 2, 2, 2)}
-        error = float(sum(cost for _, cost in quarters.values())) / len(quarters)
-        if found is None or error < found[0]:
-            tiles = [
-                _tile({key: quarter for key, (quarter, _) in quarters.items()}, number)
-                for number in range(16)
-            ]
-            found = (error, tiles)
-    assert found is not None
-    return np.stack(found[1]), found[0]
+def corners_of(number: int, spec: WangTilesSpec) -> Corners:
+    """Return the corners of a tile."""
+    kinds = np.unravel_index(number // spec.variants, (spec.kinds,) * 4)
+    return Corners(*(int(kind) for kind in kinds))
 
 
-def warm() -> None:
-    """Compile the kernels."""
-    warm_seams()
+def tiles_of(
+    exemplar: Exemplar, spec: WangTilesSpec, numbers: Integers, report: Report
+) -> NDArray[np.int32]:
+    """Return rows and columns in the exemplar of the pixels of tiles, (tiles, side, side, 2).
 
+    An exemplar smaller than a tile goes on around its edges.
 
-def _pieces(exemplar: Pixels, half: int, seed: int, attempt: int) -> Pixels:
-    """Return a square around each kind of edge, (direction, kind, side, side, channels).
-
-    Direction 0 is edges that run along u.
+    Raises:
+        RenderError: Nowhere in it a square as large as a tile may be copied.
     """
-    height, width, _ = exemplar.shape
-    side = np.arange(2 * half)
-    random = hashes(seed, _USE_OF_PIECES, 8 * TRIES)[8 * attempt : 8 * attempt + 8]
-    tops = random[:4] % np.uint64(max(height - 2 * half, 0) + 1)
-    lefts = random[4:] % np.uint64(max(width - 2 * half, 0) + 1)
-    cut = [
-        exemplar[np.ix_((int(top) + side) % height, (int(left) + side) % width)]
-        for top, left in zip(tops, lefts, strict=True)
-    ]
-    return np.stack(cut).reshape(2, 2, 2 * half, 2 * half, -1)
-
-
-def _quarter(
-    pieces: Pixels, half: int, lower: int, right: int, along: int, beside: int
-) -> tuple[Pixels, float]:
-    """Return a quarter of tiles: where the piece of a horizontal edge meets that of a vertical one.
-
-    Args:
-        pieces: From `_pieces`.
-        half: Side of a quarter.
-        lower: Whether it is a lower quarter.
-        right: Whether it is a right one.
-        along: Kind of the edge above or below.
-        beside: Kind of the edge left or right.
-    """
-    first, second = np.s_[:half], np.s_[half:]
-    horizontal = pieces[0, along, first if lower else second, second if right else first]
-    vertical = pieces[1, beside, second if lower else first, first if right else second]
-    # In the mirror every corner is the upper left one
-    rows = np.s_[::-1] if lower else np.s_[:]
-    columns = np.s_[::-1] if right else np.s_[:]
-    horizontal, vertical = horizontal[rows, columns], vertical[rows, columns]
-    apart = ((horizontal.astype(np.float64) - vertical) ** 2).sum(axis=-1)
-    mask, cost = least_seam(apart)
-    quarter = np.where(mask[..., np.newaxis], horizontal, vertical)
-    return quarter[rows, columns], cost
-
-
-def _tile(quarters: Mapping[tuple[int, ...], Pixels], number: int) -> Pixels:
-    top, right, bottom, left = (number >> bit & 1 for bit in (3, 2, 1, 0))
-    upper = np.concatenate([quarters[0, 0, top, left], quarters[0, 1, top, right]], axis=1)
-    lower = np.concatenate([quarters[1, 0, bottom, left], quarters[1, 1, bottom, right]], axis=1)
-    return np.concatenate([upper, lower])
+    side = 2 * spec.half_side
+    lengths = [n if n >= side else n + side - 1 for n in exemplar.shape]
+    rows, columns = (np.arange(n) % of for n, of in zip(lengths, exemplar.shape, strict=True))
+    whole = np.ix_(rows, columns)
+    around = replace(
+        exemplar,
+        image=Image(exemplar.image.pixels[whole], exemplar.image.meaning),
+        usable=exemplar.usable[whole],
+        features=exemplar.features[whole],
+    )
+    if not whole_windows(around.usable, (side, side)).any():
+        raise RenderError(
+            f"alpha leaves no square of {side} x {side} pixels of the exemplar, as large as a tile",
+            code="exemplar_unusable",
+        )
+    report(0.0, "cutting corners and edges")
+    tiles = TileSet(around, side, spec.kinds, spec.seed)
+    found = np.empty((len(numbers), side, side, 2), np.int32)
+    for index, number in enumerate(numbers):
+        report((1 + index) / (1 + len(numbers)), "cutting tiles")
+        spots = tiles.tile(corners_of(int(number), spec))
+        found[index] = spots[..., 1:] % exemplar.shape
+    return found

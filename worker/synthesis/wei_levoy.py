@@ -29,9 +29,8 @@ if TYPE_CHECKING:
     from worker.images.image import Image
     from worker.outcome import Outcome
     from worker.stages import Report
+    from worker.synthesis.by_example.arrays import Bytes, Mask
 
-    Bytes = NDArray[np.uint8]
-    Mask = NDArray[np.bool_]
     Indices = NDArray[np.int64]
 
 _COARSE_REACH = 2

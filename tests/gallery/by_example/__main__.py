@@ -10,17 +10,14 @@ import time
 from pathlib import Path
 from typing import Any
 
-import PIL.Image
-import PIL.ImageDraw
-
 from tests.conftest import corpus_folder
 from tests.gallery.by_example.figures import table_of_distances, table_of_means
+from tests.gallery.by_example.sheets import CELL, sheet
 from worker.jobs.environment import child_environment
 
 ROOT = Path(__file__).resolve().parents[3]
 HERE = Path(__file__).parent
-EXEMPLAR, GROWN = 96, 160
-COLUMNS, LABEL = 5, 12
+EXEMPLAR = 96
 EXEMPLARS = {
     "brick": ("skimage/brick.png", 4),
     "grass": ("skimage/grass.png", 3),
@@ -74,7 +71,7 @@ def main() -> None:
         cells, figures[name] = [("exemplar", exemplar)], {}
         for method, fields in METHODS.items():
             began = time.perf_counter()
-            picture, figures[name][method] = drawn(method, exemplar, GROWN, fields)
+            picture, figures[name][method] = drawn(method, exemplar, CELL, fields)
             figures[name][method]["seconds"] = time.perf_counter() - began
             cells.append((method, picture))
         target = (HERE if name in FREE else others) / f"{name}.png"
@@ -84,20 +81,6 @@ def main() -> None:
         readme = HERE / "README.md"
         told, mark, _ = readme.read_text().partition("<!-- figures -->\n")
         readme.write_text(told + mark + table_of_distances(figures) + table_of_means(figures))
-
-
-def sheet(cells: list[tuple[str, PIL.Image.Image]]) -> PIL.Image.Image:
-    """Lay pictures out in rows, each below its name."""
-    rows = -(-len(cells) // COLUMNS)
-    grey = all(picture.mode == "L" for _, picture in cells)
-    whole = PIL.Image.new("L" if grey else "RGB", (COLUMNS * GROWN, rows * (GROWN + LABEL)), "grey")
-    pen = PIL.ImageDraw.Draw(whole)
-    for place, (name, picture) in enumerate(cells):
-        left, top = place % COLUMNS * GROWN, place // COLUMNS * (GROWN + LABEL)
-        pen.text((left + 2, top), name, fill="white")
-        shown = picture.crop((0, 0, min(GROWN, picture.width), min(GROWN, picture.height)))
-        whole.paste(shown, (left, top + LABEL))
-    return whole
 
 
 if __name__ == "__main__":

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from api_schemas.maps import Wrap
+from api_schemas.families import Wrap
 from worker.images.kaiser import kaiser_chain
 from worker.images.pyramids import mip_chain
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from worker.images.image import Image
-from worker.images.relief import Decoded, Normals, Slopes, decode, prepared
+from worker.images.relief import Decoded, Normals, Products, Slopes, decode, prepared
 
 
 def test_a1_signed_and_unsigned_bytes_are_decoded_as_the_book_says():
@@ -109,3 +109,27 @@ def test_slopes_of_holes_and_cliffs_are_numbers():
     found = relief([[np.nan, np.inf], [-np.inf, 3e38]])
 
     assert np.isfinite(found).all()
+
+
+def test_products_are_those_of_slopes_along_u_and_v():
+    tilts = Image(np.float32([[[0.5, -0.25]]]), "data")
+    normal = Image(np.float32([[[-0.6, 0.0, 0.8]]]), "data")
+    heights = Image(np.float32([[[0.0], [1.0], [0.0], [0.0]]]), "data")
+
+    found = prepared(tilts, Products(Decoded("float"))).pixels
+    assert found.tolist() == [[[0.25, -0.125, 0.0625]]]
+    slopes = prepared(normal, Normals("signed", slopes=True)).pixels
+    np.testing.assert_allclose(slopes, [[[-0.75, 0.0, 1.0]]], rtol=1e-6)
+    found = prepared(normal, Products(Normals("signed", slopes=True))).pixels
+    np.testing.assert_allclose(found, [[[0.5625, 0.0, 0.0]]], rtol=1e-6)
+    # Rises per tile of four texels: half a step each way
+    found = prepared(heights, Products(Slopes(0, ("repeat", "repeat")))).pixels
+    assert found[0, :, 0].tolist() == [4.0, 0.0, 4.0, 0.0]
+
+
+def test_a_normal_that_lies_in_the_surface_has_a_slope_of_a_hundred():
+    lying = Image(np.float32([[[1.0, 0.0, 0.0]], [[0.0, -1.0, -1e-9]]]), "data")
+
+    found = prepared(lying, Normals("signed", slopes=True)).pixels
+
+    assert found.tolist() == [[[100.0, 0.0, 1.0]], [[0.0, -100.0, 1.0]]]

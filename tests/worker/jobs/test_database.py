@@ -9,7 +9,6 @@ import pytest
 from sqlalchemy import insert, select, text
 from sqlalchemy.exc import OperationalError
 
-from worker.jobs import database as database_module
 from worker.jobs.errors import StorageFullError
 from worker.jobs.schema import assets
 
@@ -27,7 +26,7 @@ def flushes(monkeypatch, tmp_path):
         seen.append((path.name, path.stat().st_size))
         fsync(descriptor)
 
-    monkeypatch.setattr(database_module.os, "fsync", note)
+    monkeypatch.setattr(os, "fsync", note)
     return seen
 
 
@@ -63,7 +62,7 @@ def test_a_flush_holds_up_no_writer_and_serves_all_who_wait_for_the_next(databas
         begun.set()
         assert go_on.wait(10)
 
-    monkeypatch.setattr(database_module.os, "fsync", slow)
+    monkeypatch.setattr(os, "fsync", slow)
     threads = [threading.Thread(target=write, args=(database, str(n))) for n in range(9)]
     threads[0].start()
     assert begun.wait(10)
@@ -83,7 +82,7 @@ def test_a_flush_that_fails_is_told_to_everybody(database, monkeypatch):
     def full(_descriptor):
         raise OSError(errno.ENOSPC, "No space left on device")
 
-    monkeypatch.setattr(database_module.os, "fsync", full)
+    monkeypatch.setattr(os, "fsync", full)
     for _ in range(2):
         with pytest.raises(StorageFullError):
             database.flush()

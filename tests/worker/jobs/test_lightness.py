@@ -31,6 +31,17 @@ def test_a_child_of_a_forkserver_that_was_not_prepared_says_so():
     assert "worker.jobs.preload was not loaded" in told.stderr
 
 
+def test_a_forkserver_in_which_a_thread_runs_does_not_come_up():
+    script = (
+        "import threading\n"
+        "threading.Thread(target=threading.Event().wait, daemon=True).start()\n"
+        "import worker.jobs.preloaded"
+    )
+    told = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+    assert told.returncode == 1
+    assert "2 threads run in the forkserver" in told.stderr
+
+
 @pytest.mark.parametrize("module", ["worker.jobs.preload", "worker.jobs.slot"])
 def test_a_child_starts_without_the_records(module):
     assert loaded_by(module, f"{NATIVE} sqlalchemy alembic asyncio") == ""

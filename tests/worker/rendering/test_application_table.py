@@ -18,6 +18,7 @@ EXAMPLES = [
     "cookies",
     "cut_out",
     "gloss",
+    "lanterns",
     "light_map",
     "material_map",
     "occlusion",

@@ -11,7 +11,7 @@ from worker.images import image_io
 pytestmark = [pytest.mark.gl, pytest.mark.golden]
 
 
-@pytest.mark.parametrize("name", ["added_up", "brushed_in_the_open", "fine_detail"])
+@pytest.mark.parametrize("name", ["added_up", "brushed_in_the_open", "fine_detail", "turned_metal"])
 def test_highlights_look_as_they_did(name: str, compare_with_golden: Any, tmp_path: Path) -> None:
     path = tmp_path / "picture.exr"
 

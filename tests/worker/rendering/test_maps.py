@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from api_schemas.families import SurfaceSpec
 from api_schemas.language import FAMILIES
+from api_schemas.surface_spec import SurfaceSpec
 from tests.worker.rendering.studio import Studio
 from worker.images.packed_floats import packed
 

@@ -83,6 +83,7 @@ def test_a_guide_is_followed(corpus, technique):
 
     found = ours[sources(made, exemplar)]
     dark, wanted = found.mean(axis=-1) < 0.5, theirs.mean(axis=-1) < 0.5
+    # Without the weight of the guide it would be 0.34 (0.52 by ashikhmin)
     assert (dark & wanted).sum() / (dark | wanted).sum() >= 0.8
 
 

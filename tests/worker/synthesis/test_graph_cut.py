@@ -17,22 +17,31 @@ def grow(exemplar, size, **fields):
 
 
 def seams(exemplar, made):
-    """The sum over neighbours of |A(s) - B(s)| + |A(t) - B(t)|, from the source layer alone."""
+    """How much is seen of all seams, from the source layer alone: Kwatra's equation 6.
+
+    With changes below 8 in all taken for 8, as half of the difference of neighbours on both sides.
+    """
     rows, columns = sources(made, exemplar)
     whole = np.rint(exemplar * 255).astype(int)
     height, width = exemplar.shape[:2]
-    total = 0
+    around = np.pad(whole, ((1, 1), (1, 1), (0, 0)), mode="edge")
+    total = 0.0
     for down, right in ((0, 1), (1, 0)):
         here = np.s_[: len(rows) - down, : rows.shape[1] - right]
         there = np.s_[down:, right:]
+        ahead = around[1 + down : height + 1 + down, 1 + right : width + 1 + right]
+        behind = around[1 - down : height + 1 - down, 1 - right : width + 1 - right]
+        changes = np.abs(ahead - behind).sum(axis=-1) // 2
         after = (
             np.minimum(rows[here] + down, height - 1),
             np.minimum(columns[here] + right, width - 1),
         )
         before = np.maximum(rows[there] - down, 0), np.maximum(columns[there] - right, 0)
-        total += np.abs(whole[rows[here], columns[here]] - whole[before]).sum()
-        total += np.abs(whole[after] - whole[rows[there], columns[there]]).sum()
-    return int(total)
+        first, second = (rows[here], columns[here]), (rows[there], columns[there])
+        apart = np.abs(whole[first] - whole[before]) + np.abs(whole[after] - whole[second])
+        change = changes[first] + changes[before] + changes[after] + changes[second]
+        total += (apart.sum(axis=-1) / (8 * exemplar.shape[2] + change)).sum()
+    return total
 
 
 @st.composite
@@ -95,7 +104,8 @@ def test_x11_seams_cost_no_more_than_those_of_quilting_between_the_same_squares(
         cut = grow(exemplar, (32, 20), tileable=False, passes=0, **fields)
 
         assert (sources(cut, exemplar)[1][:, 0] == sources(quilted, exemplar)[1][:, 0]).all()
-        assert seams(exemplar, cut) <= seams(exemplar, quilted)
+        # Costs are rounded to a few thousandths at each of 1200 pairs
+        assert seams(exemplar, cut) <= seams(exemplar, quilted) + 1
 
 
 def test_x11_more_squares_never_make_seams_worse():

@@ -47,6 +47,19 @@ def test_what_is_outside_stays_and_what_is_inside_comes_from_there():
     assert colours(pixels[inside]) <= colours(picture[~inside])
 
 
+def test_a_hole_begins_at_one_half():
+    picture, grey = noise(20, 30), np.full((20, 30, 1), 0.49, np.float32)
+    grey[6:10, 8:14] = 0.5
+
+    exact = fill(picture, (grey >= 0.5).astype(np.float32)).image.pixels
+    region = shuffle(picture, (grey >= 0.5).astype(np.float32), [9, 4]).image.pixels
+
+    assert fill(picture, grey).image.pixels.tobytes() == exact.tobytes()
+    assert (exact[6:10, 8:14] != picture[6:10, 8:14]).any(axis=-1).all()
+    assert shuffle(picture, grey, [9, 4]).image.pixels.tobytes() == region.tobytes()
+    assert region[10:14, 17:23].tobytes() == picture[6:10, 8:14].tobytes()
+
+
 def test_without_a_hole_nothing_changes():
     picture = noise(20, 30)
 
@@ -88,6 +101,35 @@ def test_a_region_arrives_bit_for_bit_and_is_gone_from_where_it_was():
     far = np.ones((48, 64), bool)
     far[7:23, 5:23] = far[22:38, 35:53] = False
     assert pixels[far].tobytes() == picture[far].tobytes()
+
+
+def test_a_region_in_a_corner_leaves_the_others_alone():
+    picture = noise(40, 40)
+    region = hole(40, 40, np.s_[:8], np.s_[:8])
+
+    pixels = shuffle(picture, region, [20, 12], margin=0).image.pixels
+
+    assert pixels[12:20, 20:28].tobytes() == picture[:8, :8].tobytes()
+    stays = region[..., 0] == 0
+    stays[12:20, 20:28] = False
+    assert pixels[stays].tobytes() == picture[stays].tobytes()
+
+
+def test_the_margin_is_made_anew_and_no_more():
+    picture = noise(48, 64)
+    region = hole(48, 64, np.s_[10:20], np.s_[8:20])
+
+    made = {margin: shuffle(picture, region, [30, 15], margin=margin) for margin in (0, 4)}
+
+    changed = {margin: (each.image.pixels != picture).any(-1) for margin, each in made.items()}
+    touched = np.zeros((48, 64), bool)
+    touched[10:20, 8:20] = touched[25:35, 38:50] = True
+    ring = np.zeros((48, 64), bool)
+    ring[6:24, 4:24] = ring[21:39, 34:54] = True
+    assert (changed[0] == touched).all()
+    assert not changed[4][~ring].any()
+    # Part of what is made anew finds what was there
+    assert changed[4][ring & ~touched].mean() > 0.25
 
 
 @pytest.mark.parametrize("shift", [[0, 0], [3, 2]])

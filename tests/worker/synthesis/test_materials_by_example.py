@@ -13,9 +13,15 @@ GROWING = (
     "efros_leung",
     "graph_cut",
     "image_quilting",
+    "retargeting",
     "texture_optimization",
     "wei_levoy",
 )
+PART = np.pad(np.ones((8, 6, 1), np.float32), ((9, 7), (4, 10), (0, 0)))
+MENDED = {
+    "hole_filling": {"hole": PART},
+    "image_shuffling": {"region": PART, "shift": [7, -3], "margin": 2},
+}
 SMALL = {"efros_leung": {"window": 5}, "graph_cut": {"block": 12}, "image_quilting": {"block": 12}}
 
 
@@ -37,6 +43,21 @@ def test_all_maps_are_copied_from_the_same_places(technique):
         assert made.layers[name].pixels.tobytes() == whole[place].tobytes()
     assert made.image.pixels.tobytes() == exemplar[place].tobytes()
     assert "occlusion" not in made.layers
+
+
+@pytest.mark.parametrize("technique", MENDED)
+def test_all_maps_are_mended_from_the_same_places(technique):
+    exemplar, height, normal = noise(24, 20), noise(24, 20, 1, 1), noise(24, 20, 3, 2)
+    fields = {"height": height, "normal": normal, "occlusion": noise(24, 20, 1, 3)}
+
+    made = grow(technique, exemplar, (20, 24), **fields, **MENDED[technique])
+
+    place = sources(made, exemplar)
+    assert (np.array(place) != np.indices((24, 20))).any(axis=0)[PART[..., 0] > 0].all()
+    for name, whole in fields.items():
+        assert made.layers[name].pixels.tobytes() == whole[place].tobytes()
+    assert made.image.pixels.tobytes() == exemplar[place].tobytes()
+    assert "roughness" not in made.layers
 
 
 @pytest.mark.parametrize("technique", ["graph_cut", "image_quilting"])

@@ -173,3 +173,18 @@ def test_the_largest_target_costs_about_what_it_took(side, measured):
     assert measured / 1.6 < cost.seconds < measured * 1.6
     # 1.65 GB were in use, which is let in
     assert 1.65e9 < cost.bytes < Settings.model_fields["cost_limit_bytes"].default
+
+
+def test_what_is_seen_before_is_of_all_the_exemplar():
+    # Red tells the row of a pixel, green its column
+    exemplar, seen = noise(64, 64), []
+    exemplar[..., 0], exemplar[..., 1] = np.indices((64, 64)) / 63
+
+    grow(exemplar, (128, 96), show=seen.append)
+
+    for image in seen:
+        places = image.pixels[..., :2]
+        assert places.min() < 0.2
+        assert places.max() > 0.8
+        assert 0.3 < places.mean() < 0.7
+        assert (places == 1).mean() < 0.1

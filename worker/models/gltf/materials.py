@@ -6,7 +6,7 @@ from typing import Any, Final, Literal
 from pydantic import ValidationError
 
 import api_schemas.language  # noqa: F401 - it completes the models of surfaces
-from api_schemas.families import SurfaceSpec
+from api_schemas.surface_spec import SurfaceSpec
 from api_schemas.surfaces.metallic_roughness import MetallicRoughnessSpec
 from api_schemas.surfaces.unlit import UnlitSpec
 from worker.models.gltf.document.materials import Anisotropy, Material

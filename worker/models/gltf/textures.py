@@ -5,7 +5,8 @@ from dataclasses import dataclass, field
 from typing import Any, Final, Literal
 
 from api_schemas.coordinates.uv import UvSpec
-from api_schemas.maps import ColorMap, Filter, NormalMap, NumberMap, TextureTransform, Wrap
+from api_schemas.families import Wrap
+from api_schemas.maps import ColorMap, Filter, NormalMap, NumberMap, TextureTransform
 from api_schemas.textures.image import ImageSpec
 from worker.models.gltf.document import pictures as gltf
 from worker.models.gltf.document.root import Document

@@ -16,6 +16,7 @@ from worker.numba_kernel import kernel
 from worker.synthesis._counter_hash import uniforms
 from worker.synthesis.by_example.patch_match import NEVER, difference, lines
 from worker.synthesis.by_example.starting import random_blocks
+from worker.synthesis.by_example.uses import Uses
 from worker.synthesis.by_example.windows import whole_windows
 
 if TYPE_CHECKING:
@@ -84,7 +85,7 @@ class _Choice:
     def __init__(self, source: Bytes, free: Mask, size: tuple[int, int], side: int) -> None:
         self._lines, self._channels = lines(source), source.shape[2]
         self._free, self._size, self._side = free, size, side
-        self._used = np.zeros(source.shape[:2], np.int64)
+        self._uses = Uses((source.shape[0], source.shape[1]))
 
     def best(self, beside: list[_Neighbour], chance: NDArray[np.float64]) -> tuple[int, int]:
         """Return the corner of the block that continues its neighbours best."""
@@ -100,7 +101,10 @@ class _Choice:
         if barred.all():
             barred = ~self._free
         scale = np.median(costs) if beside else 1.0
-        scores = costs + scale * (_EVENNESS * self._use() + _CHANCE * chance)
+        # Blocks of patches reach beyond blocks of their corners: fewer of them fit
+        down, across = self._free.shape
+        uses = self._uses.of_windows(self._size)[:down, :across]
+        scores = costs + scale * (_EVENNESS * uses + _CHANCE * chance)
         scores[barred] = np.inf
         v, u = (int(k) for k in np.unravel_index(scores.argmin(), scores.shape))
         return v, u
@@ -109,7 +113,9 @@ class _Choice:
         """Note that the pixels of a block are used so many times more; (-1, -1) is none."""
         v, u = corner
         if v >= 0:
-            self._used[v : v + self._size[0], u : u + self._size[1]] += times
+            height, width = self._size
+            rows, columns = np.ogrid[v : v + height, u : u + width]
+            self._uses.count(rows, columns, times)
 
     def _compare(self, near: _Neighbour, costs: Integers) -> None:
         """Add what blocks and a neighbour differ by where either continues into the other."""
@@ -124,15 +130,6 @@ class _Choice:
             counting(size[1] * self._channels),
             costs,
         )
-
-    def _use(self) -> NDArray[np.float64]:
-        """Return how often the pixels of each block have been used, as a multiple of the mean."""
-        height, width = self._size
-        sums = np.pad(self._used.cumsum(0).cumsum(1), ((1, 0), (1, 0)))
-        rows, columns = self._free.shape
-        tall = sums[height : height + rows] - sums[:rows]
-        wide = tall[:, width : width + columns] - tall[:, :columns]
-        return np.asarray(wide / (height * width * max(float(self._used.mean()), 1e-6)))
 
 
 def _divided(length: int, side: int) -> Integers:

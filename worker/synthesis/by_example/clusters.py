@@ -19,10 +19,8 @@ from worker.synthesis.by_example.surroundings import known_around
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    Bytes = NDArray[np.uint8]
-    Mask = NDArray[np.bool_]
-    Integers = NDArray[np.int32]
-    Numbers = NDArray[np.float64]
+    from worker.synthesis.by_example.arrays import Bytes, Integers, Mask, Numbers
+
 
 _ROUNDS = 8
 _SAMPLES = 8192

@@ -5,17 +5,20 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy import ndimage
 
 from worker.errors import RenderError
+from worker.images.image import Image
 from worker.synthesis.by_example.optimisation import optimise
+from worker.synthesis.by_example.result import gathered
 from worker.synthesis.by_example.task import Task
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from worker.stages import Report
+    from worker.preview import Progress
+    from worker.synthesis.by_example.exemplar import Exemplar
 
-    Bytes = NDArray[np.uint8]
     Mask = NDArray[np.bool_]
     Integers = NDArray[np.int32]
 
@@ -25,15 +28,17 @@ def unmoved(shape: tuple[int, int]) -> Integers:
     return np.moveaxis(np.indices(shape, np.int32), 0, -1).copy()
 
 
-def filled(features: Bytes, usable: Mask, place: Integers, seed: int, report: Report) -> Integers:
+def filled(
+    exemplar: Exemplar, usable: Mask, place: Integers, seed: int, report: Progress
+) -> Integers:
     """Return a coordinate map with its gaps filled.
 
     Args:
-        features: Of the picture, (height, width, channels).
+        exemplar: The picture.
         usable: Which of its pixels may be copied into gaps, (height, width).
         place: Row and column of the source of each pixel, (height, width, 2); -1 in gaps.
         seed: Of everything random.
-        report: Told how far it is.
+        report: Told how far it is, and shown what there is.
 
     Raises:
         RenderError: There are gaps and nothing to copy.
@@ -43,8 +48,37 @@ def filled(features: Bytes, usable: Mask, place: Integers, seed: int, report: Re
         return place
     if not usable.any():
         raise RenderError("nothing is left of the picture to copy", code="exemplar_unusable")
+    features = exemplar.features
     rows, columns = np.moveaxis(place, -1, 0)
     task = Task(
         source=features, usable=usable, size=gaps.shape, tileable=False, seed=seed, variety=0.0
     ).keeping(features[rows, columns], ~gaps)
-    return np.where(gaps[..., np.newaxis], optimise(task, report), place)
+    told = 0.0
+    shown = gathered(place, exemplar.image)
+    seen_at: dict[tuple[int, ...], NDArray[np.intp]] = {}
+
+    def tell(share: float, step: str) -> None:
+        nonlocal told
+        told = share
+        report(share, step)
+
+    def show(found: Integers) -> None:
+        if found.shape not in seen_at:
+            seen_at[found.shape] = _nearest_made(found[..., 0] >= 0, gaps)
+        there = found[tuple(seen_at[found.shape])]
+        pixels = shown.pixels.copy()
+        pixels[gaps] = exemplar.image.pixels[there[:, 0], there[:, 1]]
+        report(told, "so far", Image(pixels, shown.meaning))
+
+    return np.where(gaps[..., np.newaxis], optimise(task, tell, show), place)
+
+
+def _nearest_made(made: Mask, gaps: Mask) -> NDArray[np.intp]:
+    """Return, for each pixel of the gaps, row and column of the nearest that has been made.
+
+    That may be in a smaller picture, whose gaps are smaller by parts of a pixel.
+    """
+    within = ndimage.distance_transform_edt(~made, return_distances=False, return_indices=True)
+    places = zip(np.nonzero(gaps), made.shape, gaps.shape, strict=True)
+    rows, columns = (at * small // large for at, small, large in places)
+    return np.asarray(within[:, rows, columns], np.intp)

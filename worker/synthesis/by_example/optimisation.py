@@ -71,7 +71,8 @@ def optimise(
     Args:
         task: What is to be made of what.
         report: Told how far it is.
-        show: Given what has been found on each level, on coarse ones for less pixels.
+        show: Given what has been found on each level, in the same way; on coarse ones for less
+            pixels.
     """
     steps = levels(task)
     work = [_rounds(level) * level.fixed.size for level in steps]
@@ -87,9 +88,11 @@ def optimise(
             done = sum(work[: level.depth]) + min(turn, rounds) * level.fixed.size
             report(done / sum(work), name)
             state.advance(turn)
-        if show is not None and not level.fixed.any():
+        if show is not None:
             limits = np.array(task.usable.shape, np.int32) - 1
-            show(np.minimum(state.place * 2 ** (len(steps) - 1 - level.depth), limits))
+            so_far = np.minimum(state.place * 2 ** (len(steps) - 1 - level.depth), limits)
+            so_far[level.fixed] = -1
+            show(so_far)
     state.place[steps[-1].fixed] = -1
     return state.place
 
@@ -140,7 +143,8 @@ class _Search:
             limits = (self._allowed.shape[0], self._allowed.shape[1])
             blocks = random_blocks(grid, limits, max(grid.side, min(height, width) // 2), seed, use)
         else:
-            size = (max(grid.side, int(_BLOCK * height)), max(grid.side, int(_BLOCK * width)))
+            tall, wide = self._smallest()
+            size = (max(grid.side, int(_BLOCK * tall)), max(grid.side, int(_BLOCK * wide)))
             blocks = fitting_blocks(grid, source, self._allowed, size, seed, use)
         self._field = Field.of(*self._onto_allowed(*blocks))
         self._active = self._needed
@@ -163,11 +167,13 @@ class _Search:
 
     def refining(self, coarser: _Search) -> _Search:
         """Begin with what was found at half the size."""
-        places = [np.arange(count) * self._grid.stride for count in self._grid.counts]
+        rows, columns = (
+            np.arange(count, dtype=np.int64) * self._grid.stride for count in self._grid.counts
+        )
         known = coarser._grid.stride
-        field = doubled(np.stack(coarser._field[:2]), *places, known)
-        self._field = Field.of(*self._onto_allowed(*field))
-        barred = doubled(np.moveaxis(coarser._barred, -1, 0), *places, known)
+        field = doubled(np.stack(coarser._field[:2]), rows, columns, known)
+        self._field = Field.of(*self._onto_allowed(field[0], field[1]))
+        barred = doubled(np.moveaxis(coarser._barred, -1, 0), rows, columns, known)
         self._barred = np.ascontiguousarray(np.moveaxis(barred, 0, -1))
         self._active = np.ones(self._grid.counts, bool)
         self._vote()
@@ -230,7 +236,7 @@ class _Search:
         if self._task.longest_copy is None:
             return False
         share = self._task.longest_copy * room
-        shape, wraps = self._level.usable.shape, self._task.tileable
+        shape, wraps = self._smallest(), self._task.tileable
         for cut in (1.0, _CUT):
             down, across = (int(share * cut * length) for length in shape)
             if min(down, across) <= self._grid.side:
@@ -252,6 +258,11 @@ class _Search:
             self._grid.stride,
             NONE_BARRED if self._task.longest_copy is None else self._barred,
         )
+
+    def _smallest(self) -> tuple[float, float]:
+        """Return height and width of the smallest exemplar."""
+        (height, width), share = self._level.usable.shape, self._task.smallest
+        return height * share[0], width * share[1]
 
     def _use(self) -> NDArray[np.float32]:
         """Return how often each source patch is used, as a multiple of its share."""

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     Spectrum = NDArray[np.complex128]
 
 _MOST_SQUARES = 100_000
-_NEVER = np.iinfo(np.int64).max
+NEVER = np.iinfo(np.int64).max
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,10 +90,7 @@ class Placing:
             tolerance: How much worse than the best a square may be.
             chance: Decides among these, 0 <= chance < 1.
         """
-        found = [
-            np.where(allowed, spectra.differences(old, over), _NEVER)
-            for allowed, spectra in zip(self._allowed, self._spectra, strict=True)
-        ]
+        found = self.costs(old, over)
         costs = np.concatenate([costs.ravel() for costs in found])
         near = np.flatnonzero(costs <= costs.min() * (1 + tolerance))
         pick = int(near[int(chance * len(near))])
@@ -103,6 +100,20 @@ class Placing:
                 return view, row, column
             pick -= differences.size
         raise AssertionError("unreachable")
+
+    def costs(self, old: Integers, over: Mask) -> list[Integers]:
+        """Return, for each view, the squared difference of all squares to what is there.
+
+        By their upper left pixels, (rows, columns); NEVER where one may not be copied.
+
+        Args:
+            old: Features of what is there, (side, side, channels).
+            over: Where it is known, (side, side).
+        """
+        return [
+            np.where(allowed, spectra.differences(old, over), NEVER)
+            for allowed, spectra in zip(self._allowed, self._spectra, strict=True)
+        ]
 
 
 class _Spectra:

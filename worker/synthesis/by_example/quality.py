@@ -58,7 +58,7 @@ def quality(place: Integers, exemplar: Exemplar) -> Figures:
         "longest_run": int(max(copied_so_far(across).max(), copied_so_far(down.T).max())),
         "pieces": _pieces(across, down, made),
         "repetition": repetition(features),
-        "exemplar_repetition": repetition(exemplar.features),
+        "exemplar_repetition": max(map(repetition, exemplar.layout.parts(exemplar.features))),
         "seam": seam(features),
     }
     ours, known = features, made

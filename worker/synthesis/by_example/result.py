@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, TypeVar
 
 import numpy as np
 
@@ -20,9 +20,12 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from worker.synthesis.by_example.exemplar import Exemplar
+    from worker.synthesis.by_example.side_by_side import SideBySide
 
     Integers = NDArray[np.int32]
     Pixels = NDArray[np.float32]
+
+Kind = TypeVar("Kind", bound=np.generic)
 
 
 def finished(
@@ -47,11 +50,15 @@ def finished(
         turns: Which view of the exemplar each pixel is from, where there are several.
         normal_range: Whether the normals of the material, if given, hold 0..1.
     """
-    image = gathered(place, inputs.get("picture", exemplar.image), kept)
-    layers = {"source": source_layer(place, exemplar.shape)}
+    layout = exemplar.layout
+    image = gathered(place, layout.joined(inputs, "picture") or exemplar.image, kept)
+    layers = {"source": source_layer(place, layout)}
+    if len(layout.sizes) > 1:
+        layers["exemplar"] = layout.which(place)[..., np.newaxis].astype(np.float32)
     if turns is not None:
         layers["turn"] = turns[..., np.newaxis].astype(np.float32)
-    maps = {name: gathered(place, inputs[name]).pixels for name in MATERIAL if name in inputs}
+    given = {name: layout.joined(inputs, name) for name in MATERIAL}
+    maps = {name: gathered(place, whole).pixels for name, whole in given.items() if whole}
     maps |= {name: np.where(place[..., :1] < 0, 0, pixels) for name, pixels in maps.items()}
     if "normal" in maps and turns is not None:
         maps["normal"] = _turned(maps["normal"], turns, normal_range)
@@ -59,7 +66,7 @@ def finished(
         Image(resample(image.pixels, size), image.meaning),
         {name: Image(nearest(values, size), "data") for name, values in layers.items()}
         | {name: Image(resample(pixels, size), "data") for name, pixels in maps.items()},
-        {"quality": quality(place, exemplar)},
+        {"quality": quality(place, exemplar), **_shares(place, layout)},
     )
 
 
@@ -73,6 +80,16 @@ def gathered(place: Integers, source: Image, kept: Image | None = None) -> Image
     return Image(pixels, source.meaning)
 
 
+def _shares(place: Integers, layout: SideBySide) -> dict[str, list[float]]:
+    """Tell which share of the copied pixels is from each exemplar, where there are several."""
+    count = len(layout.sizes)
+    if count == 1:
+        return {}
+    numbers = layout.which(place)
+    pixels = np.bincount(numbers[numbers >= 0], minlength=count)
+    return {"exemplars": [round(float(share), 4) for share in pixels / max(1, pixels.sum())]}
+
+
 def _turned(
     pixels: Pixels, turns: NDArray[np.int64], normal_range: Literal["unit", "signed"]
 ) -> Pixels:
@@ -83,20 +100,20 @@ def _turned(
     return np.asarray((turned_normals(2 * normals - 1, turns) + 1) / 2, np.float32)
 
 
-def source_layer(place: Integers, shape: tuple[int, int]) -> NDArray[np.float32]:
-    """Return u and v in the exemplar of each pixel's source, (height, width, 2); 0 for kept."""
-    height, width = shape
-    rows, columns = np.moveaxis(place, -1, 0)
+def source_layer(place: Integers, layout: SideBySide) -> NDArray[np.float32]:
+    """Return u and v in its exemplar of each pixel's source, (height, width, 2); 0 for kept."""
+    there, sizes = layout.within(place)
+    (rows, columns), (height, width) = np.moveaxis(there, -1, 0), np.moveaxis(sizes, -1, 0)
     layer = np.empty((*rows.shape, 2), np.float32)
     layer[..., 0] = (columns + 0.5) / width
     layer[..., 1] = 1 - (rows + 0.5) / height
-    layer[rows < 0] = 0
+    layer[place[..., 0] < 0] = 0
     return layer
 
 
-def nearest(values: NDArray[np.float32], size: tuple[int, int]) -> NDArray[np.float32]:
+def nearest(values: NDArray[Kind], size: tuple[int, int]) -> NDArray[Kind]:
     """Bring coordinates to another (width, height): means of them would be other places."""
     height, width = values.shape[:2]
     rows = (2 * np.arange(size[1]) + 1) * height // (2 * size[1])
     columns = (2 * np.arange(size[0]) + 1) * width // (2 * size[0])
-    return np.asarray(values[rows[:, np.newaxis], columns], np.float32)
+    return np.asarray(values[rows[:, np.newaxis], columns])

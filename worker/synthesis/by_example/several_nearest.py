@@ -44,6 +44,26 @@ class SeveralField(NamedTuple):
     costs: Integers
 
 
+class _Compared(NamedTuple):
+    """What is compared: lines of bytes of target and source, patches of which may be used.
+
+    Attributes:
+        target: As `lines` lays its features out.
+        source: The exemplar's.
+        allowed: Which of its patches may be used, by their upper left pixels.
+        side: Of a patch, in pixels.
+        channels: Bytes per pixel.
+        counts: Which bytes count, as `counting` tells.
+    """
+
+    target: Bytes
+    source: Bytes
+    allowed: Mask
+    side: int
+    channels: int
+    counts: Bytes
+
+
 def several_quickly(
     target: Bytes, source: Bytes, usable: Mask, side: int, seed: int, count: int
 ) -> Iterator[SeveralField]:
@@ -63,14 +83,16 @@ def several_quickly(
         np.zeros(shape, np.int32), np.zeros(shape, np.int32), np.full(shape, NEVER, np.int32)
     )
     channels = target.shape[2]
-    compared = (lines(target), lines(source), allowed, side, channels, counting(side * channels))
+    compared = _Compared(
+        lines(target), lines(source), allowed, side, channels, counting(side * channels)
+    )
     corners = np.flatnonzero(allowed)
-    _begin(*compared, *field, corners, hashes(seed, 0, 1)[0])
+    _begin(compared, field, corners, hashes(seed, 0, 1)[0])
     yield field
     iteration = 0
     while True:
         key = hashes(seed, 1 + iteration, 1)[0]
-        _improve(*compared, *field, iteration, key, BAND_ROWS)
+        _improve(compared, field, iteration, key, BAND_ROWS)
         yield field
         iteration += 1
 
@@ -95,7 +117,7 @@ def several_exactly(
 
 @kernel
 def _meet(
-    compared: tuple[Bytes, Bytes, Mask, int, int, Bytes],
+    compared: _Compared,
     place: tuple[int, int, int, int],
     rows: Integers,
     columns: Integers,
@@ -124,57 +146,39 @@ def _meet(
 
 @parallel_kernel
 def _begin(
-    target: Bytes,
-    source: Bytes,
-    allowed: Mask,
-    side: int,
-    channels: int,
-    counts: Bytes,
-    rows: Integers,
-    columns: Integers,
-    costs: Integers,
+    compared: _Compared,
+    field: SeveralField,
     corners: NDArray[np.int64],
     key: np.uint64,
 ) -> None:
+    rows, columns, costs = field
     height, width, count = costs.shape
+    across = compared.allowed.shape[1]
     for y in prange(height):
         for x in range(width):
             for turn in range(_FIRST_TRIES * count):
                 bits = scrambled(key, (y * width + x) * 64 + turn)
                 corner = corners[below(bits, len(corners))]
-                place = (y, x, corner // allowed.shape[1], corner % allowed.shape[1])
-                _meet(
-                    (target, source, allowed, side, channels, counts),
-                    place,
-                    rows[y, x],
-                    columns[y, x],
-                    costs[y, x],
-                )
+                place = (y, x, corner // across, corner % across)
+                _meet(compared, place, rows[y, x], columns[y, x], costs[y, x])
 
 
 @parallel_kernel
 def _improve(
-    target: Bytes,
-    source: Bytes,
-    allowed: Mask,
-    side: int,
-    channels: int,
-    counts: Bytes,
-    rows: Integers,
-    columns: Integers,
-    costs: Integers,
+    compared: _Compared,
+    field: SeveralField,
     iteration: int,
     key: np.uint64,
     band_rows: int,
 ) -> None:
+    rows, columns, costs = field
     height, width, count = costs.shape
-    bottom, right = allowed.shape
+    bottom, right = compared.allowed.shape
     shift = band_rows // 2 if iteration % 2 == 1 else 0
     step = 1 if iteration % 2 == 0 else -1
     for band in prange((height + shift + band_rows - 1) // band_rows):
         first = max(0, band * band_rows - shift)
         last = min(height, (band + 1) * band_rows - shift)
-        compared = (target, source, allowed, side, channels, counts)
         for row in range(last - first):
             y = first + row if step == 1 else last - 1 - row
             for column in range(width):

@@ -11,9 +11,8 @@ from worker.numba_kernel import kernel
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    Bytes = NDArray[np.uint8]
-    Mask = NDArray[np.bool_]
-    Integers = NDArray[np.int32]
+    from worker.synthesis.by_example.arrays import Bytes, Integers, Mask
+
     Wholes = NDArray[np.int64]
 
 

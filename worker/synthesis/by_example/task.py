@@ -40,6 +40,7 @@ class Task:
         start: A coordinate map, (height, width, 2) of any size, that is like the one wanted.
         longest_copy: How much of the exemplar's height and width may be copied in one line, 0..1;
             None for any length.
+        smallest: How much of its height and width the smallest exemplar has that it holds.
     """
 
     source: Bytes
@@ -53,6 +54,7 @@ class Task:
     variety: float = 1.0
     start: Integers | None = None
     longest_copy: float | None = None
+    smallest: tuple[float, float] = (1.0, 1.0)
 
     def keeping(self, target: Bytes, fixed: Mask) -> Task:
         """Return the same task with some finished pixels."""

@@ -91,13 +91,14 @@ class Views:
 
     def colours(self, spots: Integers) -> NDArray[np.int64]:
         """Return the features of spots, (.., channels)."""
-        return self.features[self._pixels(spots)].astype(np.int64)
+        return self.features[self.pixels(spots)].astype(np.int64)
 
     def sources(self, spots: Integers) -> NDArray[np.int32]:
         """Return the row and column in the exemplar of spots, (.., 2)."""
-        return self.places[self._pixels(spots)].astype(np.int32)
+        return self.places[self.pixels(spots)].astype(np.int32)
 
-    def _pixels(self, spots: Integers) -> Integers:
+    def pixels(self, spots: Integers) -> Integers:
+        """Return the numbers among all pixels of spots, (..)."""
         view, row, column = np.moveaxis(spots, -1, 0)
         height, width = np.moveaxis(self.shapes[view], -1, 0)
         rows, columns = np.clip(row, 0, height - 1), np.clip(column, 0, width - 1)

@@ -17,11 +17,8 @@ from worker.synthesis._counter_hash import uniforms
 from worker.synthesis.by_example.windows import whole_windows
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from worker.synthesis.by_example.arrays import Bytes, Mask, Numbers
 
-    Bytes = NDArray[np.uint8]
-    Mask = NDArray[np.bool_]
-    Numbers = NDArray[np.float64]
 
 _LINES = 32
 _SAMPLES = 1024

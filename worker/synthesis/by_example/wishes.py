@@ -48,7 +48,7 @@ class Wishes:
             fixed = usable(keep) if mask is None else np.asarray(mask.pixels[..., 0] >= 0.5)
         if not isinstance(spec, GuidedSpec) or "guide" not in inputs:
             return cls(None, 1.0, keep, fixed)
-        ours = inputs.get("exemplar_guide", exemplar.image)
+        ours = exemplar.layout.joined(inputs, "exemplar_guide") or exemplar.image
         space = FeatureSpace.of(ours)
         of_exemplar = space.encode(ours)
         of_result = with_channels(space.encode(inputs["guide"]), of_exemplar.shape[2])

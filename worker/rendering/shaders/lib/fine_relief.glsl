@@ -1,6 +1,7 @@
 // Relief that is finer than a pixel widens highlights: the variance of its slopes along each axis is
 // added to that of the little mirrors' (Toksvig 2005; Olano and Baker 2010).
 float slope_variance = 0.0;
+mat3 slope_covariance = mat3(0.0);  // of those besides that vary more in one direction, in the world
 
 // A lobe of exp(-tan^2 d / alpha^2) or of GGX: the variance is alpha^2 / 2.
 float widened(float alpha) {

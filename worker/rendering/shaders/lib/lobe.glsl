@@ -12,8 +12,8 @@ struct Lobe {
 //   direction: in the axes of u and v, of any length
 Lobe lobe_of(SurfacePoint point, float roughness, float strength, vec2 direction);
 
-// A roughness of a round lobe that reflects about as much of light from everywhere.
-float even_roughness(Lobe lobe, float roughness);
+// What it reflects of light that is everywhere alike: A, B and A + B of F0 A + F90 B.
+vec3 reflected_share(Lobe lobe, SurfacePoint point, float seen, float roughness);
 
 // D V n.l, 0 where the light does not face the surface.
 float highlight_of(Lobe lobe, SurfacePoint point, vec3 half_way, vec3 light, float facing, float seen);

@@ -7,8 +7,10 @@ Lobe lobe_of(SurfacePoint point, float roughness, float strength, vec2 direction
     return Lobe(vec2(alpha_of(roughened(roughness))), Scratches(vec3(0.0), vec3(0.0)));
 }
 
-float even_roughness(Lobe lobe, float roughness) {
-    return roughened(roughness);
+vec3 reflectance(float seen, float roughness);  // of the surface, from a table
+
+vec3 reflected_share(Lobe lobe, SurfacePoint point, float seen, float roughness) {
+    return reflectance(seen, roughened(roughness));
 }
 
 float highlight_of(Lobe lobe, SurfacePoint point, vec3 half_way, vec3 light, float facing, float seen) {

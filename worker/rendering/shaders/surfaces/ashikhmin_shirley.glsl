@@ -4,6 +4,7 @@
 #include "lib/power.glsl"
 #include "lib/scratches.glsl"
 #include "lib/streak.glsl"
+#include "lib/stretched.glsl"
 #include "lib/surface_point.glsl"
 
 struct Surface {
@@ -30,6 +31,9 @@ vec4 shade(SurfacePoint point, Surface surface) {
     Scratches axes = scratches(point, surface.angle);
     vec2 exponent = max(vec2(surface.exponent_along, surface.exponent_across), 0.0);
     exponent = vec2(dulled(exponent.x), dulled(exponent.y));
+    Widths widths = stretched(sqrt(2.0 / max(exponent, 1e-6)), axes);
+    if (slope_covariance != mat3(0.0)) exponent = 2.0 / (widths.along * widths.along);
+    axes = widths.axes;
     float strength = sqrt((exponent.x + 1.0) * (exponent.y + 1.0)) / (8.0 * PI);
     float seen = max(dot(point.normal, point.view), 1e-4);
     float matt_seen = 1.0 - schlick(0.5 * seen);

@@ -85,7 +85,7 @@ vec4 shade(SurfacePoint point, Surface surface) {
         turned(vec2(surface.anisotropy_x, surface.anisotropy_y), surface.anisotropy_rotation);
     Lobe lobe = lobe_of(point, surface.roughness, surface.anisotropy_strength, direction);
     float seen = clamp(dot(point.normal, point.view), 0.0, 1.0);
-    vec3 table = reflectance(seen, even_roughness(lobe, surface.roughness));
+    vec3 table = reflected_share(lobe, point, seen, surface.roughness);
     float lost = surface.energy_compensation == 1 ? (1.0 - table.b) / table.b : 0.0;
     Fresnel brighter = regained(dielectric, lost);
     Fresnel metal = regained(Fresnel(base, vec3(1.0)), lost);

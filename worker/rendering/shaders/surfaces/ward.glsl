@@ -3,6 +3,7 @@
 #include "lib/power.glsl"
 #include "lib/scratches.glsl"
 #include "lib/streak.glsl"
+#include "lib/stretched.glsl"
 #include "lib/surface_point.glsl"
 
 struct Surface {
@@ -26,7 +27,9 @@ vec4 shade(SurfacePoint point, Surface surface) {
     if (point.normal == vec3(0.0)) return vec4(surface.emission + matt, 1.0);
     Scratches axes = scratches(point, surface.angle);
     vec2 slope = max(vec2(surface.roughness_along, surface.roughness_across), SMOOTHEST);
-    slope = vec2(widened(slope.x), widened(slope.y));
+    Widths widths = stretched(vec2(widened(slope.x), widened(slope.y)), axes);
+    slope = widths.along;
+    axes = widths.axes;
     float seen = max(dot(point.normal, point.view), 1e-4);
     vec3 even = light_all_around();
     vec3 radiance = surface.emission + matt * (even + sky_on_matt(point.normal));
