@@ -5,6 +5,7 @@ import pytest
 
 from worker.synthesis.by_example.pyramid import halved
 from worker.synthesis.by_example.surroundings import known_around
+from worker.synthesis.by_example.task import Task, levels
 
 
 def picture(height, width):
@@ -47,3 +48,16 @@ def test_around_a_corner_is_the_other_side_or_nothing(wraps, count):
         assert told[-1, -1] == 19
         assert told[-1, 0] == 15
         assert told[0, -1] == 4
+
+
+def test_guides_are_there_on_every_level():
+    everything = np.ones((96, 96), bool)
+    grey, light = np.full((96, 96, 1), 40, np.uint8), np.full((96, 128, 1), 200, np.uint8)
+    task = Task(picture(96, 96), everything, (96, 128), False, 0, guides=(grey, light))
+
+    found = levels(task)
+
+    assert len(found) == 3
+    for level in found:
+        assert (level.source[..., 2] == 40).all()
+        assert (level.target[..., 2] == 200).all()

@@ -57,11 +57,6 @@ class TileSet:
     def tile(self, corners: Corners) -> Integers:
         """Return the spots of a new tile, (side, side, 3)."""
         upper_left, upper_right, lower_right, lower_left = corners
-        at_corners = _between(
-            _between(self._corners[upper_left], self._corners[upper_right], 1),
-            _between(self._corners[lower_left], self._corners[lower_right], 1),
-            0,
-        )
         across = _between(
             self._across[upper_left, upper_right], self._across[lower_left, lower_right], 0
         )
@@ -70,8 +65,8 @@ class TileSet:
         )
         rows, columns = self._to_end, self._to_end.T
         nearest = np.minimum(rows, columns)[..., np.newaxis]
+        # Where both edges are as near, both show the corner
         frame = np.where((rows < columns)[..., np.newaxis], across, upright)
-        frame = np.where((rows == columns)[..., np.newaxis], at_corners, frame)
         frame = np.where(nearest < self._depth, frame, self._nothing)
         return self._squares.laid(frame, nearest[..., 0] > 0)
 
