@@ -19,6 +19,7 @@ class HallucinationSpec(FromExemplarSpec):
     Made small again it is the picture it was. The output's size should be the enlarged one.
     """
 
+    revision: ClassVar[int] = 2
     source: ClassVar[str] = "Sun, Zhu and Tappen, 2010; Irani and Peleg, 1991 (back-projection)"
     equation: ClassVar[str] = "x <- x + up(target - down(x)), x of the exemplar's patches"
     layers: ClassVar[tuple[str, ...]] = ("source",)

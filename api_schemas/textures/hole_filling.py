@@ -20,6 +20,7 @@ class HoleFillingSpec(MaterialSpec):
     The output's size should be the exemplar's. What is outside of the hole stays as it is.
     """
 
+    revision: ClassVar[int] = 2
     source: ClassVar[str] = "Wexler, Shechtman and Irani, 2007; Barnes et al., 2009"
     equation: ClassVar[str] = (
         "minimise the sum over the patches p that touch the hole of min over q outside of it "

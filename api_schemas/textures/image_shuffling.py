@@ -23,6 +23,7 @@ class ImageShufflingSpec(MaterialSpec):
     The output's size should be the exemplar's. What is moved beyond its edges is cut off.
     """
 
+    revision: ClassVar[int] = 2
     source: ClassVar[str] = "Simakov et al., 2008; Cho et al., 2008; Barnes et al., 2009"
     equation: ClassVar[str] = "picture'(p + shift) = picture(p) for p in the region"
 

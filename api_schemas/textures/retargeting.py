@@ -21,6 +21,7 @@ class RetargetingSpec(GrownMaterialSpec):
     faces may be cut where their parts look alike. At its own size it is the exemplar itself.
     """
 
+    revision: ClassVar[int] = 2
     source: ClassVar[str] = "Simakov, Caspi, Shechtman and Irani, 2008; Pritch et al., 2009"
     equation: ClassVar[str] = (
         "minimise the sum over patches p of min over q |target(p) - exemplar(q)|^2 + "

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Annotated, ClassVar, Literal
 
@@ -9,6 +10,7 @@ from pydantic import Field
 
 from api_schemas.by_example import GuidedSpec
 from api_schemas.cost import Cost
+from api_schemas.own_size import Size
 
 
 class TextureOptimizationSpec(GuidedSpec):
@@ -17,7 +19,7 @@ class TextureOptimizationSpec(GuidedSpec):
     No line of pixels longer than half of the exemplar is copied, where it has room for others.
     """
 
-    revision: ClassVar[int] = 2
+    revision: ClassVar[int] = 3
     source: ClassVar[str] = (
         "Kwatra, Essa, Bobick and Kwatra, 2005; Han et al., 2006; Kaspar et al., 2015"
     )
@@ -35,15 +37,24 @@ class TextureOptimizationSpec(GuidedSpec):
         "more brings rare things back more often.",
     )
     outlines: Annotated[float, Field(ge=0, le=1)] = Field(
-        default=1.0,
+        default=0.25,
         description="How much the distance to edges counts beside colour: it keeps stones and "
         "bricks whole.",
     )
 
     def cost_from(self, within: Mapping[str, int], pixels: int) -> Cost:
-        """All levels together are a third larger than the finest, whose patches are fewer."""
-        grown = self.size[0] * self.size[1]
+        """Of a square exemplar."""
+        side = math.isqrt(within["exemplar"])
+        return self.cost_at({"exemplar": (side, side)}, pixels)
+
+    def cost_at(self, sides: Mapping[str, Size], pixels: int) -> Cost:
+        """The finest level, and the coarsest, which is searched longest.
+
+        Sizes are halved until the exemplar's short side is 24 to 47 pixels: of a small one little.
+        """
+        grown, exemplar = math.prod(self.size), math.prod(sides["exemplar"])
+        halvings = int(math.log2(max(24, min(sides["exemplar"])) / 24))
         return Cost(
-            seconds=grown * 8e-6 + within["exemplar"] * 2e-6 + pixels * 2e-8,
-            bytes=grown * 135.0 + within["exemplar"] * 200.0 + pixels * 16.0,
+            seconds=grown * (2.2e-6 + 8e-5 / 4**halvings) + exemplar * 2e-6 + pixels * 2e-8,
+            bytes=grown * 100.0 + exemplar * 200.0 + pixels * 16.0,
         )

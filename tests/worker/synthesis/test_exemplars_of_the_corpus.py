@@ -3,10 +3,8 @@
 The distances are those of 9 x 9 patches at half the size: to the nearest of the exemplar's, and
 back. A prototype of the method was measured in the very same way on the same exemplars (its own
 measure smooths less when it halves, and gives larger figures); the best open program was measured
-by the prototype's. On water the prototype copies lines of 0.72 of the exemplar, which is what makes
-it so near: with half at most, a fifth more is allowed there.
-
-Lines are looked at on these, on the smallest exemplar of the corpus and on the one with a hole.
+by the prototype's. The prototype copies lines of up to 0.73 of an exemplar; half is the most here.
+Lines are looked at on all exemplars.
 """
 
 import numpy as np
@@ -32,31 +30,37 @@ def longest_lines(made, exemplar):
 
 
 @pytest.mark.parametrize(
-    ("name", "side", "prototype", "open_program", "more"),
+    ("name", "side", "prototype", "open_program"),
     [
-        ("skimage/brick.png", 256, (0.0093, 0.0059), (0.017, 0.009), 1.0),
-        ("embark/1.jpg", None, (0.0100, 0.0134), (0.019, 0.016), 1.2),
-        ("embark/2.jpg", None, (0.0082, 0.0150), (0.013, 0.021), 1.0),
-        ("embark/4.png", None, (0.0147, 0.0003), (0.037, 0.007), 1.0),
+        ("skimage/brick.png", 256, (0.0093, 0.0059), (0.017, 0.009)),
+        ("embark/1.jpg", None, (0.0100, 0.0134), (0.019, 0.016)),
+        ("embark/2.jpg", None, (0.0082, 0.0150), (0.013, 0.021)),
+        ("embark/4.png", None, (0.0147, 0.0003), (0.037, 0.007)),
     ],
 )
-def test_grown_textures_are_near_to_their_exemplars(
-    corpus, name, side, prototype, open_program, more
-):
+def test_grown_textures_are_near_to_their_exemplars(corpus, name, side, prototype, open_program):
     exemplar = picture(corpus, name, side)
 
     made = grow("texture_optimization", exemplar, (512, 512), seed=2)
 
     quality = made.report["quality"]
-    assert quality["to_exemplar_2"] <= more * prototype[0]
+    assert quality["to_exemplar_2"] <= prototype[0]
     assert quality["to_exemplar_2"] < open_program[0]
-    assert quality["from_exemplar_2"] <= more * 1.05 * prototype[1]
+    assert quality["from_exemplar_2"] <= 1.05 * prototype[1]
     assert quality["from_exemplar_2"] < open_program[1]
     assert quality["seam"] <= 1
     assert max(longest_lines(made, exemplar)) <= 0.5
 
 
-@pytest.mark.parametrize("name", ["oiio/tahoe-tiny.tif", "embark/bricks.png"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "embark/1_bw.jpg", "embark/bricks.png", "embark/multiexample/1.jpg",
+        "embark/multiexample/2.jpg", "skimage/brick.png", "skimage/camera.png",
+        "skimage/chessboard_GRAY.png", "skimage/grass.png", "oiio/bayer.png", "oiio/checker.tx",
+        "oiio/grid.tif", "oiio/tahoe-tiny.tif",
+    ],
+)  # fmt: skip
 def test_half_of_an_exemplar_is_the_most_that_is_copied(corpus, name):
     exemplar = picture(corpus, name, alpha=True)
 

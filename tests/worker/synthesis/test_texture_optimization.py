@@ -3,9 +3,14 @@
 import numpy as np
 import pytest
 
+from api_schemas.textures.perlin import PerlinSpec
+from api_schemas.textures.texture_optimization import TextureOptimizationSpec
+from service.settings import Settings
 from tests.growing import colours, noise, sources
 from tests.growing import grow as grow_by
 from worker.errors import RenderError
+from worker.synthesis.by_example.filling import unmoved
+from worker.synthesis.by_example.pyramid import doubled
 
 
 def grow(exemplar, size, **fields):
@@ -141,6 +146,33 @@ def test_there_is_something_to_see_before_it_is_finished():
     assert widths == sorted(widths)
     assert (widths[0], widths[-1]) == (64, 128)
     assert all(colours(image.pixels) <= colours(exemplar) for image in seen)
+
+
+@pytest.mark.parametrize("stride", [1, 2, 3])
+def test_what_is_not_moved_is_not_moved_at_twice_the_size(stride):
+    # Known at every stride-th pixel of 7 x 9, as patches are: in between it goes on as it was
+    known = np.moveaxis(unmoved((7, 9))[::stride, ::stride], -1, 0)
+    rows, columns = np.arange(0, 14, 2), np.arange(18)
+
+    found = doubled(known, rows, columns, stride)
+
+    assert (found[0] == rows[:, np.newaxis]).all()
+    assert (found[1] == columns).all()
+
+
+@pytest.mark.parametrize(("side", "measured"), [((300, 300), 53.4), ((128, 96), 190.0)])
+def test_the_largest_target_costs_about_what_it_took(side, measured):
+    # Seconds of a core at 4096 x 4096; of the small exemplar 11.8 at 1024 x 1024, 16 times
+    exemplar = PerlinSpec(technique="perlin")
+    spec = TextureOptimizationSpec(
+        technique="texture_optimization", exemplar=exemplar, size=[4096, 4096]
+    )
+
+    cost = spec.cost_at({"exemplar": side}, 4096**2)
+
+    assert measured / 1.6 < cost.seconds < measured * 1.6
+    # 1.65 GB were in use, which is let in
+    assert 1.65e9 < cost.bytes < Settings.model_fields["cost_limit_bytes"].default
 
 
 def test_what_is_seen_before_is_of_all_the_exemplar():

@@ -1,8 +1,8 @@
 """Blocks of an exemplar laid so that each continues its neighbours: a start for optimisation.
 
 Whatever is within a block fits perfectly, and large ones have structure at once. They are laid one
-after the other, each where it continues its neighbours best (as Efros and Freeman, 2001, quilt), so
-that little is left to mend between them.
+after the other, each where it continues its neighbours best (as Efros and Freeman, 2001, quilt),
+and chosen once more when all neighbours are known: little is left to mend between them.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from worker.byte_squares import counting
-from worker.numba_kernel import parallel_kernel, prange
+from worker.numba_kernel import kernel
 from worker.synthesis._counter_hash import uniforms
 from worker.synthesis.by_example.patch_match import NEVER, difference, lines
 from worker.synthesis.by_example.starting import random_blocks
@@ -28,8 +28,9 @@ if TYPE_CHECKING:
     Mask = NDArray[np.bool_]
     Integers = NDArray[np.int64]
 
-_EVENNESS, _CHANCE = 1.0, 0.15
+_EVENNESS, _CHANCE = 2.0, 0.15
 """What using each pixel once more, and mere chance, weigh beside how well a block continues."""
+_SWEEPS = 2
 
 
 def fitting_blocks(
@@ -56,9 +57,11 @@ def fitting_blocks(
         return random_blocks(grid, (allowed.shape[0], allowed.shape[1]), min(size), seed, use)
     choice = _Choice(source, free, (height, width), grid.side)
     starts = np.full((len(edges[0]) - 1, len(edges[1]) - 1, 2), -1, np.int64)
-    for number, block in enumerate(np.ndindex(*starts.shape[:2])):
+    for number, block in enumerate(_SWEEPS * list(np.ndindex(*starts.shape[:2]))):
         chance = uniforms(seed, 2**16 + use, free.size, number * free.size).reshape(free.shape)
+        choice.use(starts[block], -1)
         starts[block] = choice.best(_beside(starts, block, wraps=grid.wraps), chance)
+        choice.use(starts[block], 1)
     within = [
         np.searchsorted(marks, at, "right") - 1 for marks, at in zip(edges, places, strict=True)
     ]
@@ -104,8 +107,15 @@ class _Choice:
         scores = costs + scale * (_EVENNESS * uses + _CHANCE * chance)
         scores[barred] = np.inf
         v, u = (int(k) for k in np.unravel_index(scores.argmin(), scores.shape))
-        self._uses.count(*np.ogrid[v : v + height, u : u + width])
         return v, u
+
+    def use(self, corner: Integers, times: int) -> None:
+        """Note that the pixels of a block are used so many times more; (-1, -1) is none."""
+        v, u = corner
+        if v >= 0:
+            height, width = self._size
+            rows, columns = np.ogrid[v : v + height, u : u + width]
+            self._uses.count(rows, columns, times)
 
     def _compare(self, near: _Neighbour, costs: Integers) -> None:
         """Add what blocks and a neighbour differ by where either continues into the other."""
@@ -129,19 +139,19 @@ def _divided(length: int, side: int) -> Integers:
 
 
 def _beside(starts: Integers, block: tuple[int, ...], *, wraps: bool) -> list[_Neighbour]:
-    """Return the blocks around one that have been chosen already."""
+    """Return the other blocks around one, as far as they have been chosen already."""
     found = []
     for down, across in ((0, -1), (0, 1), (-1, 0), (1, 0)):
         y, x = block[0] + down, block[1] + across
         if wraps:
             y, x = y % starts.shape[0], x % starts.shape[1]
         inside = 0 <= y < starts.shape[0] and 0 <= x < starts.shape[1]
-        if inside and starts[y, x, 0] >= 0:
+        if inside and (y, x) != block and starts[y, x, 0] >= 0:
             found.append(_Neighbour(down, across, int(starts[y, x, 0]), int(starts[y, x, 1])))
     return found
 
 
-@parallel_kernel
+@kernel
 def _compare(
     source: Bytes,
     channels: int,
@@ -152,7 +162,7 @@ def _compare(
     costs: Integers,
 ) -> None:
     extent = (size[0], size[1] * channels)
-    for v in prange(costs.shape[0]):
+    for v in range(costs.shape[0]):
         for u in range(costs.shape[1]):
             place = (theirs[0], theirs[1] * channels, v + ours[0], (u + ours[1]) * channels)
             costs[v, u] += difference(source, source, place, extent, counts, NEVER)

@@ -22,8 +22,8 @@ def continued(place: Integers) -> tuple[Mask, Mask]:
     return across, down
 
 
-def copied_so_far(goes_on: Mask) -> NDArray[np.int64]:
+def copied_so_far(goes_on: Mask) -> Integers:
     """Return how long each line along axis 1 has become at a pixel, the pixel included."""
-    places = np.arange(goes_on.shape[1])
-    starts = np.maximum.accumulate(np.where(goes_on, 0, places), axis=1)
-    return np.asarray(places - starts + 1, np.int64)
+    places = np.arange(goes_on.shape[1], dtype=np.int32)
+    starts = np.maximum.accumulate(np.where(goes_on, np.int32(0), places), axis=1)
+    return np.asarray(places - starts + 1, np.int32)

@@ -30,7 +30,7 @@ from worker.synthesis.by_example.patch_match import (
 )
 from worker.synthesis.by_example.pyramid import doubled
 from worker.synthesis.by_example.starting import brought_to, continued_outwards, random_blocks
-from worker.synthesis.by_example.task import levels
+from worker.synthesis.by_example.task import PATCH_SIDE, levels
 from worker.synthesis.by_example.voting import vote
 from worker.synthesis.by_example.windows import fitting_side, whole_windows
 
@@ -46,10 +46,13 @@ if TYPE_CHECKING:
     Mask = NDArray[np.bool_]
     Integers = NDArray[np.int32]
 
-_ROUNDS = (16, 10, 6, 4)
+_ROUNDS = (16, 10, 4, 2)
 _RADII = (65536, 65536, 32, 8)
-_STARTS = 8
+_STARTS = 8  # half of them where that is more pixels than
+_STARTED = 2**15
+_HALVED_AT = (2, 4)  # rounds before which the worse half of them is given up
 _DENSE_BELOW = 160
+_BAND_ROWS = 64  # searched side by side: few, as coarse levels are small
 _PRESSURE = 0.1
 _NOWHERE = -(2**20)
 _BLOCK = 0.42  # of the exemplar's sides: as large as can be without being copied too long
@@ -68,15 +71,16 @@ def optimise(
     Args:
         task: What is to be made of what.
         report: Told how far it is.
-        show: Given what has been found so far, in the same way; on coarse levels for less pixels.
+        show: Given what has been found on each level, in the same way; on coarse ones for less
+            pixels.
     """
     steps = levels(task)
     work = [_rounds(level) * level.fixed.size for level in steps]
-    state = _begun(task, steps[0], dense=len(steps) > 1)
+    state = _begun(task, steps[0], finest=len(steps) == 1)
     for level in steps:
         name = f"level {level.depth + 1} of {len(steps)}"
         if level.depth:
-            state = _Search(task, level, dense=level.depth + 1 < len(steps)).refining(state)
+            state = _Search(task, level, finest=level is steps[-1]).refining(state)
         rounds = _rounds(level)
         for turn in range(level.depth == 0, rounds + _MENDING):
             if turn >= rounds and not (level is steps[-1] and state.bars_long_copies()):
@@ -84,11 +88,11 @@ def optimise(
             done = sum(work[: level.depth]) + min(turn, rounds) * level.fixed.size
             report(done / sum(work), name)
             state.advance(turn)
-            if show is not None:
-                limits = np.array(task.usable.shape, np.int32) - 1
-                so_far = np.minimum(state.place * 2 ** (len(steps) - 1 - level.depth), limits)
-                so_far[level.fixed] = -1
-                show(so_far)
+        if show is not None:
+            limits = np.array(task.usable.shape, np.int32) - 1
+            so_far = np.minimum(state.place * 2 ** (len(steps) - 1 - level.depth), limits)
+            so_far[level.fixed] = -1
+            show(so_far)
     state.place[steps[-1].fixed] = -1
     return state.place
 
@@ -97,13 +101,16 @@ def _rounds(level: Level) -> int:
     return _ROUNDS[min(level.depth, len(_ROUNDS) - 1)]
 
 
-def _begun(task: Task, level: Level, *, dense: bool) -> _Search:
+def _begun(task: Task, level: Level, *, finest: bool) -> _Search:
     """Begin with what is given, or several times by chance, and go on with what fits best."""
     if task.start is not None:
-        return _Search(task, level, dense=dense).following(task.start)
-    found = [_Search(task, level, dense=dense).beginning(use) for use in range(_STARTS)]
-    for state in found:
-        for turn in range(_rounds(level) // 2):
+        return _Search(task, level, finest=finest).following(task.start)
+    count = min(_STARTS, max(_STARTS // 2, _STARTED // level.fixed.size))
+    found = [_Search(task, level, finest=finest).beginning(use) for use in range(count)]
+    for turn in range(_rounds(level) // 2):
+        if turn in _HALVED_AT:
+            found = sorted(found, key=lambda state: state.cost)[: len(found) // 2]
+        for state in found:
             state.advance(turn)
     return min(found, key=lambda state: state.cost)
 
@@ -111,11 +118,12 @@ def _begun(task: Task, level: Level, *, dense: bool) -> _Search:
 class _Search:
     """One level under way."""
 
-    def __init__(self, task: Task, level: Level, *, dense: bool) -> None:
+    def __init__(self, task: Task, level: Level, *, finest: bool) -> None:
         height, width = level.fixed.shape
-        side = fitting_side(level.usable, (height, width), level.patch_side)
-        stride = 1 if dense or min(height, width) < _DENSE_BELOW or side < 5 else 2
-        self._task, self._level, self._finest = task, level, not dense
+        side = fitting_side(level.usable, (height, width), PATCH_SIDE)
+        begins = level.depth == 0 and not finest
+        stride = 1 if begins or min(height, width) < _DENSE_BELOW or side < 5 else 2
+        self._task, self._level, self._finest = task, level, finest
         self._grid = PatchGrid((height, width), side, stride, task.tileable)
         self._covers = self._grid.cover(0), self._grid.cover(1)
         self._allowed = whole_windows(level.usable, (side, side))
@@ -159,13 +167,13 @@ class _Search:
 
     def refining(self, coarser: _Search) -> _Search:
         """Begin with what was found at half the size."""
-        rows, columns = doubled(np.stack(coarser._field[:2]), self._grid.size)
-        stride = self._grid.stride
-        height, width = self._grid.counts
-        rows, columns = rows[::stride, ::stride], columns[::stride, ::stride]
-        self._field = Field.of(*self._onto_allowed(rows[:height, :width], columns[:height, :width]))
-        barred = doubled(np.moveaxis(coarser._barred, -1, 0), self._grid.size)
-        barred = barred[:, ::stride, ::stride][:, :height, :width]
+        rows, columns = (
+            np.arange(count, dtype=np.int64) * self._grid.stride for count in self._grid.counts
+        )
+        known = coarser._grid.stride
+        field = doubled(np.stack(coarser._field[:2]), rows, columns, known)
+        self._field = Field.of(*self._onto_allowed(field[0], field[1]))
+        barred = doubled(np.moveaxis(coarser._barred, -1, 0), rows, columns, known)
         self._barred = np.ascontiguousarray(np.moveaxis(barred, 0, -1))
         self._active = np.ones(self._grid.counts, bool)
         self._vote()
@@ -198,6 +206,7 @@ class _Search:
                 iteration=2 * turn + half,
                 seed=(self._task.seed + self._level.depth * 0x9E3779B9) % 2**32,
                 radius=_RADII[min(self._level.depth, len(_RADII) - 1)],
+                band_rows=_BAND_ROWS,
             )
         self._vote()
 

@@ -84,6 +84,7 @@ def improve(
     seed: int,
     radius: int,
     tries: int = 1,
+    band_rows: int = BAND_ROWS,
 ) -> None:
     """Improve a field whose costs are known, in place: no cost ever rises.
 
@@ -98,10 +99,11 @@ def improve(
         seed: Of the random numbers.
         radius: How far away the random search begins.
         tries: Random patches looked at before the radius is halved.
+        band_rows: Rows that learn from each other.
     """
     key = hashes(seed, iteration, 1)[0]
     counts = counting(patches.side * patches.channels)
-    _improve(*patches, *field, active, counts, iteration, key, radius, tries, BAND_ROWS)
+    _improve(*patches, *field, active, counts, iteration, key, radius, tries, band_rows)
 
 
 @kernel

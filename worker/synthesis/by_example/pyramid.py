@@ -28,19 +28,20 @@ def halved(features: Bytes, known: Mask, *, wraps: bool = False) -> tuple[Bytes,
     return np.rint(mean).astype(np.uint8), weight[..., 0] >= 0.5
 
 
-def doubled(values: NDArray[np.int32], size: tuple[int, int]) -> NDArray[np.int32]:
-    """Return coordinates within a picture twice as large, (height, width) = `size`.
+def doubled(
+    values: NDArray[np.int32], rows: NDArray[np.int64], columns: NDArray[np.int64], stride: int = 1
+) -> NDArray[np.int32]:
+    """Return coordinates within a picture twice as large, of its pixels at some rows and columns.
 
-    New pixel 2 i + k gets twice the coordinate of old pixel i, plus k: axis 0 of `values` holds
-    rows and columns.
+    Pixel 2 i + k gets twice the coordinate of the smaller one's pixel i, plus k: axis 0 of `values`
+    holds rows and columns. Where it knows only every `stride`th pixel, they go on from there.
     """
-    height, width = size
-    rows, columns = np.arange(height), np.arange(width)
-    old_rows = np.minimum(rows // 2, values.shape[1] - 1)
-    old_columns = np.minimum(columns // 2, values.shape[2] - 1)
+    step = 2 * stride
+    old_rows = np.minimum(rows // step, values.shape[1] - 1)
+    old_columns = np.minimum(columns // step, values.shape[2] - 1)
     old = values[:, old_rows[:, np.newaxis], old_columns] * 2
-    old[0] += (rows - 2 * old_rows)[:, np.newaxis].astype(np.int32)
-    old[1] += (columns - 2 * old_columns).astype(np.int32)
+    old[0] += (rows - step * old_rows)[:, np.newaxis].astype(np.int32)
+    old[1] += (columns - step * old_columns).astype(np.int32)
     return old
 
 

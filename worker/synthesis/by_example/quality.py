@@ -92,11 +92,11 @@ def repetition(features: Bytes) -> float:
 
 def seam(features: Bytes) -> float:
     """Return the mean step across a border when tiled, as a multiple of the largest inside."""
-    whole = features.astype(np.int32)
+    whole = features.astype(np.int16)
     ratios = []
     for axis in (0, 1):
         steps = np.abs(np.diff(whole, axis=axis, append=whole.take([0], axis=axis)))
-        means = steps.mean(axis=(1 - axis, 2))
+        means = steps.mean(axis=(1 - axis, 2), dtype=np.float64)
         ratios.append(float(means[-1] / max(means[:-1].max(initial=0.0), 1e-3)))
     return round(max(ratios), 4)
 

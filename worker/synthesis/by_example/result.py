@@ -104,9 +104,11 @@ def source_layer(place: Integers, layout: SideBySide) -> NDArray[np.float32]:
     """Return u and v in its exemplar of each pixel's source, (height, width, 2); 0 for kept."""
     there, sizes = layout.within(place)
     (rows, columns), (height, width) = np.moveaxis(there, -1, 0), np.moveaxis(sizes, -1, 0)
-    layer = np.stack([(columns + 0.5) / width, 1 - (rows + 0.5) / height], axis=-1)
+    layer = np.empty((*rows.shape, 2), np.float32)
+    layer[..., 0] = (columns + 0.5) / width
+    layer[..., 1] = 1 - (rows + 0.5) / height
     layer[place[..., 0] < 0] = 0
-    return np.asarray(layer, np.float32)
+    return layer
 
 
 def nearest(values: NDArray[Kind], size: tuple[int, int]) -> NDArray[Kind]:

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     Mask = NDArray[np.bool_]
     Integers = NDArray[np.int32]
 
-SIDES = (9, 9, 7)
-"""Of patches on each level from coarse to fine, then as on the last one named."""
+PATCH_SIDE = 9
+"""Of patches in pixels on every level, where source and target are large enough."""
 _COARSEST_SIDE = 24
 _LEAST_PATCHES = 16
 
@@ -78,11 +78,6 @@ class Level(NamedTuple):
     fixed: Mask
     depth: int
 
-    @property
-    def patch_side(self) -> int:
-        """Side of a patch in pixels, where source and target are large enough."""
-        return SIDES[min(self.depth, len(SIDES) - 1)]
-
 
 def levels(task: Task) -> list[Level]:
     """Return a task at all sizes, from coarse to fine.
@@ -90,15 +85,19 @@ def levels(task: Task) -> list[Level]:
     Halving ends before a side falls below 24 pixels, or too few patches could be copied.
     """
     source, usable, target, fixed = _joined(task)
-    everywhere = np.ones(fixed.shape, bool)
     voted = task.source.shape[2]
     found = []
     while True:
         found.append((np.ascontiguousarray(source), usable, target, fixed))
         source, usable = halved(source, usable)
-        guides, _ = halved(target[..., voted:], everywhere, wraps=task.tileable)
-        colours, fixed = halved(target[..., :voted], fixed, wraps=task.tileable)
-        target, everywhere = np.concatenate([colours, guides], axis=-1), np.ones(fixed.shape, bool)
+        if task.guides is None and not fixed.any():
+            # Nothing is known of the target but its size, and it may be large
+            height, width = (max(1, length // 2) for length in fixed.shape)
+            target, fixed = target[:height, :width], fixed[:height, :width]
+        else:
+            guides, _ = halved(target[..., voted:], np.ones(fixed.shape, bool), wraps=task.tileable)
+            colours, fixed = halved(target[..., :voted], fixed, wraps=task.tileable)
+            target = np.concatenate([colours, guides], axis=-1)
         small = min(*usable.shape, *fixed.shape) < _COARSEST_SIDE
         if small or not _enough(usable) or fixed.all():
             return [Level(*parts, depth) for depth, parts in enumerate(reversed(found))]
@@ -122,4 +121,4 @@ def _joined(task: Task) -> tuple[Bytes, Mask, Bytes, Mask]:
 
 
 def _enough(usable: Mask) -> bool:
-    return int(whole_windows(usable, (SIDES[0], SIDES[0])).sum()) >= _LEAST_PATCHES
+    return int(whole_windows(usable, (PATCH_SIDE, PATCH_SIDE)).sum()) >= _LEAST_PATCHES

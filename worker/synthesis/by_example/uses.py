@@ -19,9 +19,9 @@ class Uses:
         """Begin for a picture of this height and width."""
         self._times = np.zeros(shape, np.int64)
 
-    def count(self, rows: Integers, columns: Integers) -> None:
-        """Count pixels, each once for every time that it is named."""
-        np.add.at(self._times, (rows, columns), 1)
+    def count(self, rows: Integers, columns: Integers, times: int = 1) -> None:
+        """Count pixels, each so many times (less than 0 takes back) as often as it is named."""
+        np.add.at(self._times, (rows, columns), times)
 
     def of_windows(self, size: tuple[int, int]) -> NDArray[np.float64]:
         """Return how often each window's pixels have been used, as a multiple of all pixels' mean.

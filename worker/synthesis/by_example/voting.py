@@ -102,7 +102,7 @@ def _vote(
         for x in range(width):
             if fixed[y, x] or not _held(anew, row_patches[y], column_patches[x]):
                 continue
-            count = 0
+            count, known, known_v, known_u = 0, 0, -1, -1
             for j in range(down):
                 patch_y = row_patches[y, j]
                 if patch_y < 0:
@@ -113,16 +113,19 @@ def _vote(
                         break
                     v = rows[patch_y, patch_x] + row_inner[y, j]
                     u = columns[patch_y, patch_x] + column_inner[x, i]
-                    slot = (v * 73856093 ^ u * 19349663) & (slots - 1)
-                    while known_by[slot] == x and (
-                        vs[known_as[slot]] != v or us[known_as[slot]] != u
-                    ):
-                        slot = (slot + 1) & (slots - 1)
-                    if known_by[slot] != x:
-                        known_by[slot], known_as[slot] = x, count
-                        vs[count], us[count], shares[count] = v, u, np.float32(0)
-                        count += 1
-                    known = known_as[slot]
+                    # Neighbours mostly propose the same
+                    if v != known_v or u != known_u:
+                        known_v, known_u = v, u
+                        slot = (v * 73856093 ^ u * 19349663) & (slots - 1)
+                        while known_by[slot] == x and (
+                            vs[known_as[slot]] != v or us[known_as[slot]] != u
+                        ):
+                            slot = (slot + 1) & (slots - 1)
+                        if known_by[slot] != x:
+                            known_by[slot], known_as[slot] = x, count
+                            vs[count], us[count], shares[count] = v, u, np.float32(0)
+                            count += 1
+                        known = known_as[slot]
                     shares[known] += weights[patch_y, patch_x]
             if count == 0:
                 continue
