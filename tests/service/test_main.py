@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from service import __main__ as main
+from service import server
 
 ROOT = Path(__file__).parents[2]
 
@@ -51,8 +51,8 @@ def test_a_data_folder_that_cannot_be_is_told_in_one_line(tmp_path, place):
 
 def test_a_caller_that_reads_nothing_is_given_up(monkeypatch):
     """The kernel ends a connection whose buffers stay full; what is written then fails."""
-    monkeypatch.setattr(main, "UNREAD_SECONDS", 1)
-    with main.listening("127.0.0.1", 0) as listener:
+    monkeypatch.setattr(server, "UNREAD_SECONDS", 1)
+    with server.listening("127.0.0.1", 0) as listener:
         listener.listen()
         with socket.create_connection(listener.getsockname()):
             accepted, _ = listener.accept()

@@ -41,15 +41,20 @@ def longest_lines(made, exemplar):
 def test_grown_textures_are_near_to_their_exemplars(corpus, name, side, prototype, open_program):
     exemplar = picture(corpus, name, side)
 
-    made = grow("texture_optimization", exemplar, (512, 512), seed=2)
+    grown = [grow("texture_optimization", exemplar, (512, 512), seed=seed) for seed in range(4)]
 
-    quality = made.report["quality"]
-    assert quality["to_exemplar_2"] <= prototype[0]
-    assert quality["to_exemplar_2"] < open_program[0]
-    assert quality["from_exemplar_2"] <= 1.05 * prototype[1]
-    assert quality["from_exemplar_2"] < open_program[1]
-    assert quality["seam"] <= 1
-    assert max(longest_lines(made, exemplar)) <= 0.5
+    # Single seeds are up to a fifth better or worse
+    qualities = [made.report["quality"] for made in grown]
+    nearest = np.mean([quality["to_exemplar_2"] for quality in qualities])
+    complete = np.mean([quality["from_exemplar_2"] for quality in qualities])
+    assert nearest <= prototype[0]
+    assert nearest < open_program[0]
+    # .0003 is a disc of 512 x 512 pixels that has no like
+    assert complete <= max(1.05 * prototype[1], prototype[1] + 0.0003)
+    assert complete < open_program[1]
+    for made in grown:
+        assert made.report["quality"]["seam"] <= 1
+        assert max(longest_lines(made, exemplar)) <= 0.5
 
 
 @pytest.mark.parametrize(

@@ -28,8 +28,9 @@ if TYPE_CHECKING:
     Mask = NDArray[np.bool_]
     Integers = NDArray[np.int64]
 
-_EVENNESS, _CHANCE = 2.0, 0.15
-"""What using each pixel once more, and mere chance, weigh beside how well a block continues."""
+_EVENNESS, _SAMENESS, _CHANCE = 5.0, 0.35, 0.15
+"""What using each pixel once more, being nearly another block, and chance weigh beside how well
+a block continues."""
 _SWEEPS = 2
 
 
@@ -38,8 +39,10 @@ def fitting_blocks(
 ) -> tuple[Integers, Integers]:
     """Return rows and columns of source patches: blocks that continue each other well.
 
-    Of blocks that do, those are preferred whose pixels have not been used yet. None continues its
-    neighbour in the source itself. Where the source has no room for them, blocks are random.
+    Of blocks that do, those are preferred whose pixels have not been used yet, and that are not
+    nearly the same as others: blocks lie in rows and columns, where the eye finds what comes back.
+    None continues its neighbour in the source itself. Where the source has no room for them, blocks
+    are random.
 
     Args:
         grid: Of the target's patches.
@@ -86,6 +89,7 @@ class _Choice:
         self._lines, self._channels = lines(source), source.shape[2]
         self._free, self._size, self._side = free, size, side
         self._uses = Uses((source.shape[0], source.shape[1]))
+        self._nearly = np.zeros(free.shape, np.int64)
 
     def best(self, beside: list[_Neighbour], chance: NDArray[np.float64]) -> tuple[int, int]:
         """Return the corner of the block that continues its neighbours best."""
@@ -104,7 +108,8 @@ class _Choice:
         # Blocks of patches reach beyond blocks of their corners: fewer of them fit
         down, across = self._free.shape
         uses = self._uses.of_windows(self._size)[:down, :across]
-        scores = costs + scale * (_EVENNESS * uses + _CHANCE * chance)
+        worse = _EVENNESS * uses + _SAMENESS * self._nearly + _CHANCE * chance
+        scores = costs + scale * worse
         scores[barred] = np.inf
         v, u = (int(k) for k in np.unravel_index(scores.argmin(), scores.shape))
         return v, u
@@ -116,6 +121,9 @@ class _Choice:
             height, width = self._size
             rows, columns = np.ogrid[v : v + height, u : u + width]
             self._uses.count(rows, columns, times)
+            down, across = height // 4, width // 4
+            near = np.s_[max(0, v - down) : v + down + 1, max(0, u - across) : u + across + 1]
+            self._nearly[near] += times
 
     def _compare(self, near: _Neighbour, costs: Integers) -> None:
         """Add what blocks and a neighbour differ by where either continues into the other."""
