@@ -72,13 +72,15 @@ _Drawn: TypeAlias = tuple[Node, Affine | None, Body]
 
 def estimate(request: Request, facts: Mapping[str, AssetFacts]) -> Cost:
     """Return the cost of a request; `facts` knows the assets it speaks of by SHA-256."""
-    cost = writing(request.output)
+    written = writing(request.output)
     width, height = request.output.size
     if isinstance(request, RenderRequest):
-        return cost + _drawing(request, facts)
+        return written + _drawing(request, facts)
     if request.output.slices:
-        return cost + volume_of(request.texture, width * height * request.output.slices)
-    return cost + _textures(request, facts, (width, height))
+        made = volume_of(request.texture, width * height * request.output.slices)
+    else:
+        made = _textures(request, facts, (width, height))
+    return made.then(written)  # which counts the picture itself
 
 
 def volume_of(texture: TextureSpec, voxels: int) -> Cost:

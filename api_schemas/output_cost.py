@@ -42,6 +42,7 @@ _SECONDS_PER_LAYERED_PIXEL = 2e-7
 _BYTES_PER_PIXEL = 48
 _MORE_FOR_MIPMAPS = 2
 _BYTES_PER_LAYER_NUMBER = 12
+_NUMBERS_PER_TEXTURE_LAYER = 3
 _BYTES_PER_SAMPLE = 52
 _BYTES_PER_LAYERED_SAMPLE = 272
 
@@ -67,9 +68,11 @@ def writing(output: Output) -> Cost:
             held = pixels // rows
     else:
         held = pixels
-        if isinstance(output, TextureOutput) and output.mipmaps:
-            seconds *= _MORE_FOR_MIPMAPS
-            held *= _MORE_FOR_MIPMAPS
+        if isinstance(output, TextureOutput):
+            numbers = _NUMBERS_PER_TEXTURE_LAYER * len(output.layers)
+            if output.mipmaps:
+                seconds *= _MORE_FOR_MIPMAPS
+                held *= _MORE_FOR_MIPMAPS
     return Cost(
         _SECONDS_TO_START + pixels * (seconds + numbers * _SECONDS_PER_LAYER_NUMBER),
         float(held * (_BYTES_PER_PIXEL + numbers * _BYTES_PER_LAYER_NUMBER)),

@@ -230,3 +230,28 @@ def test_directions_of_u_and_v_cost_by_the_triangle(surface, framed):
     # Measured: 3 us for the tangents of a triangle, 3 for the places where there are none
     triangles = 2 * 511 * (1024 - 512)
     assert (seconds(1024) - seconds(512) > 5e-6 * triangles) == framed
+
+
+def test_a_picture_is_written_when_what_made_it_is_gone():
+    """Measured for 4096 x 4096 pixels grown from 300 x 300: 54 s of a core, 1.86e9 bytes more."""
+    grown = {
+        "technique": "texture_optimization",
+        "exemplar": {"technique": "worley"},
+        "exemplar_size": [300, 300],
+        "size": [4096, 4096],
+    }
+    body = {"texture": grown, "output": {"size": [4096, 4096]}}
+    cost = estimate(TextureRequest.model_validate(body), {})
+    assert 54 < cost.seconds < Settings().cost_limit_seconds
+    assert 1.86e9 < cost.bytes < Settings().cost_limit_bytes
+
+
+def test_layers_of_a_texture_are_held_while_they_are_written():
+    """Measured at 2048 x 2048 for a small material that is shown large: 78 bytes for each pixel."""
+    worley = {"technique": "worley"}
+    maps = ["normal", "height", "occlusion", "roughness"]
+    sewn = {"technique": "image_quilting", "exemplar_size": [64, 64], "size": [64, 64]}
+    sewn |= dict.fromkeys(["exemplar", *maps], worley)
+    output = {"format": "exr", "size": [2048, 2048], "layers": ["source", *maps]}
+    body = {"texture": sewn, "output": output}
+    assert estimate(TextureRequest.model_validate(body), {}).bytes > 78 * 2048**2
