@@ -48,7 +48,8 @@ def test_they_cost_what_one_of_the_size_of_all_costs(technique):
     several = request(technique, more_exemplars=[further(1), further(2)])
     one = request(technique, exemplar_size=[width, height])
 
-    assert estimate(several, FACTS).seconds == pytest.approx(estimate(one, FACTS).seconds, rel=0.01)
+    # Laying them beside each other costs a little
+    assert estimate(several, FACTS).seconds == pytest.approx(estimate(one, FACTS).seconds, rel=0.02)
     assert estimate(several, FACTS).bytes > estimate(request(technique), FACTS).bytes
 
 

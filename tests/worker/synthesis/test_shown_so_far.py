@@ -10,12 +10,12 @@ from worker.synthesis import outcome
 
 @pytest.mark.parametrize("technique", ["texture_optimization", "retargeting"])
 def test_shares_never_fall_and_pictures_are_made_of_the_exemplar(technique):
-    exemplar, shares, seen = noise(64, 64), [], []
-    body = {"technique": technique, "exemplar": upload(0), "size": [128, 96]}
+    exemplar, shares, seen = noise(128, 128), [], []
+    body = {"technique": technique, "exemplar": upload(0), "size": [160, 96]}
 
     outcome(
         TEXTURE.validate_python(body),
-        (128, 96),
+        (160, 96),
         lambda spec, meaning: Image(exemplar, meaning),
         report=lambda share, stage: shares.append(share),
         show=seen.append,
@@ -23,11 +23,11 @@ def test_shares_never_fall_and_pictures_are_made_of_the_exemplar(technique):
 
     assert shares == sorted(shares)
     assert len(set(shares)) > 5
-    assert len(seen) > 2
+    assert len(seen) >= 2, "one for each level, or each step outwards"
     for image in seen:
         assert colours(image.pixels) <= colours(exemplar)
         # A part of all there is, and not one corner of it again and again
-        assert len(colours(image.pixels)) > 0.1 * min(64 * 64, image.width * image.height)
+        assert len(colours(image.pixels)) > 0.1 * image.width * image.height
         assert np.isfinite(image.pixels).all()
 
 
@@ -40,7 +40,7 @@ def test_what_is_not_made_anew_is_seen_from_the_beginning(technique):
 
     made = grow(technique, picture, (80, 64), show=seen.append, **fields).image.pixels
 
-    assert len(seen) > 4
+    assert len(seen) == 2, "64 and 32 pixels high"
     stays = (made == picture).all(axis=-1)
     stays[8:56, 12:70] = False
     for image in seen:

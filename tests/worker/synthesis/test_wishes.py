@@ -46,15 +46,15 @@ def test_beside_a_guide_that_counts_alone_the_texture_does_not(technique):
 @pytest.mark.parametrize("technique", GUIDED)
 def test_a_guide_is_compared_with_the_exemplar_guide(technique):
     # The exemplar is the same all over: only the other picture tells left from right
-    exemplar, ours, guide = noise(32, 32), halves(32, 32, 1.0), halves(32, 32, 0.0)
+    exemplar, ours, guide = noise(64, 64), halves(64, 64, 1.0), halves(64, 64, 0.0)
 
     _, columns = sources(
-        grow(technique, exemplar, (32, 32), guide=guide, exemplar_guide=ours), exemplar
+        grow(technique, exemplar, (64, 64), guide=guide, exemplar_guide=ours), exemplar
     )
 
-    from_the_left = columns < 16
-    assert from_the_left[:, 16:].mean() > 0.9
-    assert from_the_left[:, :16].mean() < 0.1
+    from_the_left = columns < 32
+    assert from_the_left[:, 32:].mean() > 0.9
+    assert from_the_left[:, :32].mean() < 0.1
 
 
 @pytest.mark.parametrize("technique", KEEPING)
