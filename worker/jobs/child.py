@@ -48,6 +48,7 @@ def serve(
 ) -> None:
     """Warm the executor named `module` up and answer requests until the pipe closes."""
     become_expendable()
+    heap = Heap()
     log_lines.install("warning")
     # Not RLIMIT_AS: a shader compiler maps far more than it touches.
     resource.setrlimit(resource.RLIMIT_DATA, (reservable_bytes, reservable_bytes))
@@ -66,7 +67,6 @@ def serve(
         log.exception("could not warm %s up", module)
         _send(connection, "failed", _failure_of(error))
         return
-    heap = Heap()
     heap.tidy()
     _send(connection, "warm", facts)
     while True:

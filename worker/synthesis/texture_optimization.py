@@ -57,20 +57,14 @@ def synthesize(
     if wishes.keep is not None:
         kept = _compared(exemplar.matching(wishes.keep), spec.outlines, wishes.share)
         task = task.keeping(kept, wishes.fixed)
-    told = 0.0
 
-    def tell(share: float, step: str) -> None:
-        nonlocal told
-        told = share
-        report(share, step)
-
-    def show(place: Integers) -> None:
+    def show(share: float, place: Integers) -> None:
         kept = wishes.keep
         if kept is not None:
             kept = Image(nearest(kept.pixels, (place.shape[1], place.shape[0])), kept.meaning)
-        report(told, "so far", gathered(place, exemplar.image, kept))
+        report(share, "so far", gathered(place, exemplar.image, kept))
 
-    return finished(optimise(task, tell, show), exemplar, inputs, size, wishes.keep)
+    return finished(optimise(task, report, show), exemplar, inputs, size, wishes.keep)
 
 
 def warm() -> None:

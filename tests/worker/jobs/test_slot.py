@@ -7,6 +7,7 @@ import pytest
 
 from worker.jobs.environment import child_environment
 from worker.jobs.errors import SlotError
+from worker.jobs.heap import resident_bytes
 from worker.jobs.slot import Slot
 
 
@@ -137,6 +138,16 @@ def test_a_stuck_native_call_can_be_cancelled(slot, ask, tmp_path):
     threading.Timer(0.2, cancelled.set).start()
     assert ask(slot, cancelled=cancelled, do="stuck").status == "cancelled"
     assert not slot.is_alive()
+
+
+def test_a_child_returns_what_a_job_left_unused(slot, ask, tmp_path, wait_until):
+    note = tmp_path / "pids"
+    ask(slot, do="nothing", note_pid=str(note))
+    child = int(note.read_text())
+    before = resident_bytes(child)
+    ask(slot, do="holes", bytes=200_000_000)
+    # After the answer, which nobody should wait for
+    wait_until(lambda: resident_bytes(child) < before + 20e6, 10)
 
 
 def test_memory_beyond_the_limit_ends_the_child(make_slot, ask):

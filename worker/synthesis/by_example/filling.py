@@ -53,24 +53,15 @@ def filled(
     task = Task(
         source=features, usable=usable, size=gaps.shape, tileable=False, seed=seed, variety=0.0
     ).keeping(features[rows, columns], ~gaps)
-    told = 0.0
-    shown = gathered(place, exemplar.image)
-    seen_at: dict[tuple[int, ...], NDArray[np.intp]] = {}
+    around = gathered(place, exemplar.image)
 
-    def tell(share: float, step: str) -> None:
-        nonlocal told
-        told = share
-        report(share, step)
-
-    def show(found: Integers) -> None:
-        if found.shape not in seen_at:
-            seen_at[found.shape] = _nearest_made(found[..., 0] >= 0, gaps)
-        there = found[tuple(seen_at[found.shape])]
-        pixels = shown.pixels.copy()
+    def show(share: float, found: Integers) -> None:
+        there = found[tuple(_nearest_made(found[..., 0] >= 0, gaps))]
+        pixels = around.pixels.copy()
         pixels[gaps] = exemplar.image.pixels[there[:, 0], there[:, 1]]
-        report(told, "so far", Image(pixels, shown.meaning))
+        report(share, "so far", Image(pixels, around.meaning))
 
-    return np.where(gaps[..., np.newaxis], optimise(task, tell, show), place)
+    return np.where(gaps[..., np.newaxis], optimise(task, report, show), place)
 
 
 def _nearest_made(made: Mask, gaps: Mask) -> NDArray[np.intp]:

@@ -62,7 +62,7 @@ _MENDING = 12  # rounds at most, after the last of the finest level
 
 
 def optimise(
-    task: Task, report: Report, show: Callable[[Integers], None] | None = None
+    task: Task, report: Report, show: Callable[[float, Integers], None] | None = None
 ) -> Integers:
     """Return the row and column of the source pixel for every target pixel, (height, width, 2).
 
@@ -71,8 +71,8 @@ def optimise(
     Args:
         task: What is to be made of what.
         report: Told how far it is.
-        show: Given what has been found on each level, in the same way; on coarse ones for less
-            pixels.
+        show: Given how far it is, and what has been found on each level, in the same way; on coarse
+            ones for less pixels.
     """
     steps = levels(task)
     work = [_rounds(level) * level.fixed.size for level in steps]
@@ -92,7 +92,7 @@ def optimise(
             limits = np.array(task.usable.shape, np.int32) - 1
             so_far = np.minimum(state.place * 2 ** (len(steps) - 1 - level.depth), limits)
             so_far[level.fixed] = -1
-            show(so_far)
+            show(sum(work[: level.depth + 1]) / sum(work), so_far)
     state.place[steps[-1].fixed] = -1
     return state.place
 

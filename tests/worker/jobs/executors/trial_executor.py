@@ -128,6 +128,15 @@ def _hog(body, out, report):
         time.sleep(0.005)
 
 
+_KEPT = []
+
+
+def _holes(body, out, report):
+    """Leave a heap of which one block in a hundred is in use."""
+    blocks = [bytes(2000) for _ in range(body["bytes"] // 2000)]
+    _KEPT.extend(blocks[::100])
+
+
 def _reserve(body, out, report):
     """Much at once, and none of it touched: nobody who looks at resident memory sees it."""
     held = mmap.mmap(-1, body["bytes"], flags=mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS)
@@ -175,6 +184,7 @@ _DO = {
     "stumble": _stumble,
     "exhaust": _exhaust,
     "hog": _hog,
+    "holes": _holes,
     "reserve": _reserve,
     "fill disk": _fill_disk,
     "no file": _no_file,
