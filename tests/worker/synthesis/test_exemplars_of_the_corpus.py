@@ -58,7 +58,7 @@ def test_grown_textures_are_near_to_their_exemplars(corpus, name, side, prototyp
 
 
 def test_water_does_not_lie_in_rows(corpus):
-    """What is laid below itself all over correlates with itself nearly fully, the exemplar by .1."""
+    """What is laid below itself all over correlates with itself nearly fully, the exemplar .1."""
     exemplar = picture(corpus, "embark/1_bw.jpg")
 
     grown = [grow("texture_optimization", exemplar, (512, 512), seed=seed) for seed in range(4)]
